@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad data: what a file, a text or a user handed us that cannot be used.
+//
+// Result<T> holds either a value or an Error. An Error says what is wrong, where, and with which values, so that the
+// person who owns the data can mend it. (std::expected does not exist in C++20; the member names are its own.)
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "patchproof/contract.h"
+
+namespace patchproof {
+
+// Each code with an input that provokes it.
+enum class ErrorCode {
+  cannot_open,         // a directory, a missing file, no permission
+  empty_input,         // a file of length 0
+  unknown_format,      // a file that no reader recognises
+  unsupported,         // a legal file that holds what we do not read, e.g. a trimmed surface in .g2
+  syntax,              // truncated file, text where a number should be
+  bad_number,          // "1.2.3", "nan", "1/0", a number of 10^6 digits
+  wrong_count,         // 3 control points where the degrees and knots need 16
+  bad_degree,          // degree 0 or a negative degree
+  decreasing_knots,    // 0 0 1 0.5 1 1
+  bad_multiplicity,    // one inner knot repeated more often than degree + 1
+  empty_domain,        // knots 0 0 0 0
+  vanishing_weight,    // the denominator of a rational patch is zero inside its domain
+  bad_reference,       // patch 7 of a model with 6 patches
+  mixed_roots,         // sqrt(2) and sqrt(3) in one model
+  usage,               // a request that makes no sense
+};
+
+// The name of a code as printed in messages: "wrong_count".
+const char* to_string(ErrorCode code);
+
+struct Error {
+  ErrorCode code;
+  std::string where;    // "teapot.bpt:12", "model.json at /patches/3/knots/0"
+  std::string message;  // one sentence
+  std::string values;   // the offending values, exactly as read (shortened in the middle when long)
+
+  // "teapot.bpt:12: message [values] (code)"
+  std::string text() const;
+};
+
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+  bool has_value() const { return state_.index() == 0; }
+  explicit operator bool() const { return has_value(); }
+
+  // REQUIRES has_value().
+  T& value() & {
+    PATCHPROOF_REQUIRES(has_value(), "Result::value() called on an error");
+    return std::get<0>(state_);
+  }
+  const T& value() const& {
+    PATCHPROOF_REQUIRES(has_value(), "Result::value() called on an error");
+    return std::get<0>(state_);
+  }
+  T&& value() && {
+    PATCHPROOF_REQUIRES(has_value(), "Result::value() called on an error");
+    return std::get<0>(std::move(state_));
+  }
+  T& operator*() & { return value(); }
+  const T& operator*() const& { return value(); }
+  T&& operator*() && { return std::move(*this).value(); }
+  T* operator->() { return &value(); }
+  const T* operator->() const { return &value(); }
+
+  // REQUIRES !has_value().
+  const Error& error() const {
+    PATCHPROOF_REQUIRES(!has_value(), "Result::error() called on a value");
+    return std::get<1>(state_);
+  }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+}  // namespace patchproof

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Integer: GMP's mpz. Exact like Rational but without divisions and reductions to lowest terms, hence several times
+// faster: clear the denominators of a control net once (spline/cleared.h) and run the same formula.
+#pragma once
+
+#include <boost/multiprecision/gmp.hpp>
+
+#include "patchproof/scalar/concepts.h"
+#include "patchproof/scalar/rational.h"
+
+namespace patchproof {
+
+using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+
+// Opted in as an exact Ring. Its `/` truncates, so it is no Field: is_ordered is false to keep it out of OrderedField.
+template <>
+struct scalar_traits<Integer> {
+  static constexpr bool is_exact = true;
+  static constexpr bool is_ordered = false;
+  static std::optional<Sign> sign(const Integer& x) { return static_cast<Sign>(mpz_sgn(x.backend().data())); }
+  using knot_scalar = Rational;
+};
+
+template <>
+struct embedding<Rational, Integer> {
+  static Rational apply(const Integer& x) { return Rational(x); }
+};
+
+}  // namespace patchproof

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patchproof/error.h"
+
+namespace patchproof {
+
+const char* to_string(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::cannot_open: return "cannot_open";
+    case ErrorCode::empty_input: return "empty_input";
+    case ErrorCode::unknown_format: return "unknown_format";
+    case ErrorCode::unsupported: return "unsupported";
+    case ErrorCode::syntax: return "syntax";
+    case ErrorCode::bad_number: return "bad_number";
+    case ErrorCode::wrong_count: return "wrong_count";
+    case ErrorCode::bad_degree: return "bad_degree";
+    case ErrorCode::decreasing_knots: return "decreasing_knots";
+    case ErrorCode::bad_multiplicity: return "bad_multiplicity";
+    case ErrorCode::empty_domain: return "empty_domain";
+    case ErrorCode::vanishing_weight: return "vanishing_weight";
+    case ErrorCode::bad_reference: return "bad_reference";
+    case ErrorCode::mixed_roots: return "mixed_roots";
+    case ErrorCode::usage: return "usage";
+  }
+  return "unknown";
+}
+
+std::string Error::text() const {
+  constexpr std::size_t kShown = 160;  // long offending values are cut in the middle
+  std::string shown = values;
+  if (shown.size() > kShown) shown = values.substr(0, kShown / 2) + " … " + values.substr(values.size() - kShown / 4);
+  std::string out = where.empty() ? message : where + ": " + message;
+  if (!shown.empty()) out += " [" + shown + "]";
+  return out + " (" + to_string(code) + ")";
+}
+
+}  // namespace patchproof
