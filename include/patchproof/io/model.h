@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A model: a set of patches as read from a file, exact, plus the joins that the file declares (if any).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "patchproof/patch/bspline_patch.h"
+#include "patchproof/scalar/parse_scalar.h"
+#include "patchproof/scalar/quadratic.h"
+#include "patchproof/scalar/rational.h"
+
+namespace patchproof {
+
+// The four edges of a patch. `u_min` is the line u = first parameter of the domain, traversed along growing v; and so on.
+enum class EdgeName { u_min, u_max, v_min, v_max };
+
+// A patch with homogeneous control points (w·x, w·y, w·z, w). is_rational is false when every weight is 1.
+// ENSURES (for patches that a reader returns) the denominator is certified to have no zero on the domain.
+template <ExactField T>
+struct ModelPatch {
+  std::string name;  // as in the file, or "" when it has none
+  BsplinePatch<T, 4> surface;
+  bool is_rational = false;
+};
+
+// A join that the file declares: the first edge, the second edge, and whether their directions are opposite.
+struct DeclaredJoin {
+  int patch_a, patch_b;  // 0-based
+  EdgeName edge_a, edge_b;
+  bool reversed;
+};
+
+template <ExactField T>
+struct Model {
+  std::vector<ModelPatch<T>> patches;
+  std::vector<DeclaredJoin> joins;  // empty: joins are found from the geometry
+  std::string units;                // "" when the file names none
+};
+
+// What a reader hands over: the numbers decide whether Q is enough.
+struct ModelFile {
+  std::string path;
+  std::string format;  // "patchproof-model", "newell", "bpt", "bez", "g2", "gismo", "geomdl"
+  std::string sha256;  // of the bytes read, 64 lower-case hexadecimal digits
+  Decimals decimals = Decimals::exact;
+  std::variant<Model<Rational>, Model<Quadratic>> model;
+  std::vector<std::string> notes;  // what the reader left out or noticed, e.g. "2 curves skipped"
+};
+
+}  // namespace patchproof
