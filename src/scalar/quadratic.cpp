@@ -7,8 +7,12 @@ namespace patchproof {
 
 Quadratic::Quadratic(const Rational& a, const Rational& b, int d) : x_(a) {
   PATCHPROOF_REQUIRES(d > 1, "Quadratic: the root must be at least 2");
-  for (int i = 1; i * i <= d; ++i) PATCHPROOF_REQUIRES(i * i != d, "Quadratic: the root must not be a square");
-  if (b != 0) x_ = Extension(a, b, Rational(d));
+  long free = d, outside = 1;  // √d = outside · √free
+  for (long p = 2; p * p <= free; ++p) {
+    for (; free % (p * p) == 0; free /= p * p) outside *= p;
+  }
+  PATCHPROOF_REQUIRES(free != 1, "Quadratic: the root must not be a square");
+  if (b != 0) x_ = Extension(a, b * Rational(outside), Rational(free));
 }
 
 int Quadratic::root() const { return is_rational() ? 1 : static_cast<int>(nearest_double(x_.root())); }

@@ -25,13 +25,13 @@ class Quadratic {
   Quadratic() = default;
   explicit Quadratic(int a) : x_(Rational(a)) {}
   explicit Quadratic(const Rational& a) : x_(a) {}
-  // a + b·√d. REQUIRES d > 1 and not a square.
+  // a + b·√d; squares in d are taken out of the root, so √8 is 2·√2. REQUIRES d > 1 and not a square.
   Quadratic(const Rational& a, const Rational& b, int d);
 
   Rational rational_part() const { return x_.a0(); }
-  Rational root_coefficient() const { return x_.is_extended() ? x_.a1() : Rational(0); }
-  int root() const;  // d, or 1 for a rational number
-  bool is_rational() const { return !x_.is_extended() || x_.a1() == 0; }
+  Rational root_coefficient() const { return is_rational() ? Rational(0) : x_.a1(); }
+  int root() const;  // the square-free d, or 1 for a rational number
+  bool is_rational() const { return !x_.is_extended(); }
 
   Quadratic& operator+=(const Quadratic& o) { return *this = *this + o; }
   friend Quadratic operator-(const Quadratic& a) { return Quadratic(-a.x_); }
@@ -51,7 +51,10 @@ class Quadratic {
 
  private:
   using Extension = CGAL::Sqrt_extension<Rational, Rational>;
-  explicit Quadratic(Extension x) : x_(std::move(x)) {}
+  // A sum whose roots cancel is rational again and so fits every d.
+  explicit Quadratic(Extension x) : x_(std::move(x)) {
+    if (x_.is_extended() && scalar_traits<Rational>::sign(x_.a1()) == Sign::zero) x_ = Extension(Rational(x_.a0()));
+  }
   static void checked(const Quadratic& a, const Quadratic& b) {
     PATCHPROOF_REQUIRES(!a.x_.is_extended() || !b.x_.is_extended() || a.x_.root() == b.x_.root(),
                         "Quadratic: operands with different roots");
