@@ -8,15 +8,13 @@
 #include <variant>
 #include <vector>
 
+#include "patchproof/patch/boundary.h"
 #include "patchproof/patch/bspline_patch.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/scalar/quadratic.h"
 #include "patchproof/scalar/rational.h"
 
 namespace patchproof {
-
-// The four edges of a patch. `u_min` is the line u = first parameter of the domain, traversed along growing v; and so on.
-enum class EdgeName { u_min, u_max, v_min, v_max };
 
 // A patch with homogeneous control points (w·x, w·y, w·z, w). is_rational is false when every weight is 1.
 // ENSURES (for patches that a reader returns) the denominator is certified to have no zero on the domain.
