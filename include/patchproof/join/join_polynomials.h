@@ -105,10 +105,9 @@ FormVector<R> normal(const SideForms<R>& side, NormalOrder order) {
   if (order == NormalOrder::first)
     return term(w[0], derivative(X[0]), X[1]) + term(w[1], X[0], derivative(X[0])) -
            term(w[0].derivative(), X[0], X[1]);
-  // Product rule in s; X_t × X_st-type pairs that cancel are left out.
-  return term(w[1], derivative(X[0]), X[1]) + term(w[0], derivative(X[1]), X[1]) + term(w[0], derivative(X[0]), X[2]) +
-         term(w[2], X[0], derivative(X[0])) + term(w[1], X[1], derivative(X[0])) + term(w[1], X[0], derivative(X[1])) -
-         term(w[1].derivative(), X[0], X[1]) - term(w[0].derivative(), X[0], X[2]);
+  // Product rule in s; w_s X_t × X_s and w_s X_s × X_t cancel.
+  return term(w[0], derivative(X[1]), X[1]) + term(w[0], derivative(X[0]), X[2]) + term(w[2], X[0], derivative(X[0])) +
+         term(w[1], X[0], derivative(X[1])) - term(w[1].derivative(), X[0], X[1]) - term(w[0].derivative(), X[0], X[2]);
 }
 
 template <Ring R>
