@@ -74,7 +74,12 @@ Ball operator*(const Ball& a, const Ball& b) {
 }
 Ball operator/(const Ball& a, const Ball& b) {
   Ball r;
-  mpfi_div(r.x_, a.x_, b.x_);
+  if (mpfi_has_zero(b.x_) > 0) {  // MPFI would answer NaN for 0/0
+    mpfr_set_inf(&r.x_->left, -1);
+    mpfr_set_inf(&r.x_->right, 1);
+  } else {
+    mpfi_div(r.x_, a.x_, b.x_);
+  }
   return r;
 }
 Ball operator-(const Ball& a) {
@@ -106,6 +111,7 @@ Interval Ball::to_interval() const {
 }
 
 ScaledInterval Ball::to_scaled_interval() const {
+  if (mpfi_inf_p(x_)) return {to_interval(), 0};
   const mpfr_exp_t left = mpfr_zero_p(&x_->left) ? mpfr_get_emin() : mpfr_get_exp(&x_->left);
   const mpfr_exp_t right = mpfr_zero_p(&x_->right) ? mpfr_get_emin() : mpfr_get_exp(&x_->right);
   if (mpfr_zero_p(&x_->left) && mpfr_zero_p(&x_->right)) return {};

@@ -54,6 +54,10 @@ ScaledInterval enclose_scaled(const Integer& x) {
 ScaledInterval enclose_scaled(const Rational& x) {
   const mpq_t& q = x.backend().data();
   if (mpq_sgn(q) == 0) return {};
+  if (mpq_sgn(q) < 0) {
+    const ScaledInterval opposite = enclose_scaled(Rational(-x));
+    return {-opposite.mantissa, opposite.exponent};
+  }
   mpfr_t lower, upper;
   mpfr_init2(lower, 53);
   mpfr_init2(upper, 53);
@@ -62,7 +66,7 @@ ScaledInterval enclose_scaled(const Rational& x) {
   long exponent = 0, exponent_upper = 0;
   const double a = mpfr_get_d_2exp(&exponent, lower, MPFR_RNDN);
   double b = mpfr_get_d_2exp(&exponent_upper, upper, MPFR_RNDN);
-  b = std::ldexp(b, static_cast<int>(exponent_upper - exponent));  // they differ by at most one binade
+  b = std::ldexp(b, static_cast<int>(exponent_upper - exponent));  // 1 when the upper end begins the next binade
   mpfr_clear(lower);
   mpfr_clear(upper);
   return {Interval(a, b), exponent};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/scalar/quadratic.h"
 
+#include <cmath>
+
 #include "patchproof/scalar/ball.h"
 
 namespace patchproof {
@@ -39,6 +41,13 @@ Ball tight_ball(const Quadratic& x) {
   }
 }
 
+// Infinity stands at ±2^1024 for rounding, where the next double would be.
+Rational binary_value(double x) {
+  if (std::isfinite(x)) return from_double(x);
+  const Rational below = from_double(std::ldexp(1, 1023));
+  return x > 0 ? Rational(below + below) : Rational(-below - below);
+}
+
 }  // namespace
 
 ScaledInterval enclose_scaled(const Quadratic& x) {
@@ -59,10 +68,9 @@ double nearest_double(const Quadratic& x) {
     const Ball value = Ball(x.rational_part()) + Ball(x.root_coefficient()) * sqrt(Ball(x.root()));
     const Interval coarse = value.to_interval();
     if (coarse.inf() == coarse.sup()) return coarse.inf();
-    // The midpoint of the two candidates, compared exactly.
-    const Rational middle = (from_double(coarse.inf()) + from_double(coarse.sup())) / Rational(2);
-    if (std::nextafter(coarse.inf(), coarse.sup()) == coarse.sup())
-      return (x - Quadratic(middle)).sign() == Sign::positive ? coarse.sup() : coarse.inf();
+    if (std::nextafter(coarse.inf(), coarse.sup()) != coarse.sup()) continue;
+    const Rational middle = (binary_value(coarse.inf()) + binary_value(coarse.sup())) / Rational(2);
+    return (x - Quadratic(middle)).sign() == Sign::positive ? coarse.sup() : coarse.inf();
   }
 }
 

@@ -69,6 +69,7 @@ class Ball {
 template <>
 struct scalar_traits<Ball> {
   static constexpr bool is_exact = false;
+  static constexpr bool is_field = true;
   static constexpr bool is_ordered = false;
   static std::optional<Sign> sign(const Ball& x) { return x.sign(); }
   using knot_scalar = Rational;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a number must be able to do to enter a formula of ours.
 //
-//   Lane  ⊂-arithmetic only (SIMD lanes, doubles)
+//   Lane                                          + − × only (SIMD lanes)
 //   Ring ⊃ Field ⊃ OrderedField ⊃ ExactField      (each adds to the one before)
 //
 // A type enters by specialising scalar_traits; float, int and expression-template numbers cannot slip in, because every
@@ -19,7 +19,9 @@ namespace patchproof {
 enum class Sign : int { negative = -1, zero = 0, positive = 1 };
 
 // Opt-in; no primary definition. A specialisation has
-//   static constexpr bool is_exact, is_ordered;
+//   static constexpr bool is_exact;              // every operation returns the exact result
+//   static constexpr bool is_field;              // a / b is a divided by b (Integer's `/` truncates: false)
+//   static constexpr bool is_ordered;            // == and < compare the values
 //   static std::optional<Sign> sign(const T&);   // empty: this scalar cannot tell
 //   using knot_scalar = …;                       // the OrderedField in which knots beside control values of type T live
 template <class T>
@@ -42,12 +44,13 @@ concept Ring = std::copyable<T> && std::default_initializable<T> && std::constru
                  { -a } -> std::same_as<T>;
                  { c += a } -> std::same_as<T&>;
                  { scalar_traits<T>::is_exact } -> std::convertible_to<bool>;
+                 { scalar_traits<T>::is_field } -> std::convertible_to<bool>;
                  { scalar_traits<T>::is_ordered } -> std::convertible_to<bool>;
                  { scalar_traits<T>::sign(a) } -> std::same_as<std::optional<Sign>>;
                };
 
 template <class T>
-concept Field = Ring<T> && requires(const T a, const T b) {
+concept Field = Ring<T> && scalar_traits<T>::is_field && requires(const T a, const T b) {
   { a / b } -> std::same_as<T>;
 };
 
@@ -82,6 +85,7 @@ To embed(const From& x) {
 template <>
 struct scalar_traits<double> {
   static constexpr bool is_exact = false;
+  static constexpr bool is_field = true;
   static constexpr bool is_ordered = true;
   // A rounded number proves nothing, not even its own sign.
   static std::optional<Sign> sign(double) { return std::nullopt; }

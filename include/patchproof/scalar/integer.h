@@ -12,11 +12,12 @@ namespace patchproof {
 
 using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 
-// Opted in as an exact Ring. Its `/` truncates, so it is no Field: is_ordered is false to keep it out of OrderedField.
+// An exact Ring. Its `/` truncates, so it is no Field.
 template <>
 struct scalar_traits<Integer> {
   static constexpr bool is_exact = true;
-  static constexpr bool is_ordered = false;
+  static constexpr bool is_field = false;
+  static constexpr bool is_ordered = true;
   static std::optional<Sign> sign(const Integer& x) { return static_cast<Sign>(mpz_sgn(x.backend().data())); }
   using knot_scalar = Rational;
 };

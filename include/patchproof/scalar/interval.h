@@ -3,28 +3,83 @@
 //
 // ENSURES  (1) every operation's result contains the exact result for all values of its operands (under a RoundingGuard);
 //          (2) enclose(x) contains x, and is a single point when x is a double;
-//          (3) sign() answers only when the whole interval has one sign, or is the point 0.
-// REQUIRES a RoundingGuard alive in the thread for + − × ÷ and sqrt (the FPU rounds upward while it lives). One guard per
-//          job is the intended use. enclose() needs none.
-// SOURCE   CGAL::Interval_nt_advanced.
+//          (3) sign() answers only when the whole interval has one sign, or is the point 0;
+//          (4) Interval() is the point 0; dividing by an interval that contains 0 gives the whole line.
+// REQUIRES a RoundingGuard alive in the thread for + − × ÷ and sqrt (the FPU rounds upward while it lives); builds
+//          without NDEBUG check it. One guard per job is the intended use. enclose() and the signs need none.
+// SOURCE   CGAL::Interval_nt_advanced, in a class of ours because CGAL leaves Interval() undefined, lets NaN in, and
+//          offers == and <, which an interval cannot answer.
 #pragma once
 
 #include <CGAL/Interval_nt.h>
 
-#include <vector>
+#include <cmath>
+#include <limits>
 
+#include "patchproof/contract.h"
 #include "patchproof/scalar/concepts.h"
 #include "patchproof/scalar/integer.h"
 #include "patchproof/scalar/rational.h"
 
 namespace patchproof {
 
-using Interval = CGAL::Interval_nt_advanced;
-using RoundingGuard = Interval::Protector;
+using RoundingGuard = CGAL::Interval_nt_advanced::Protector;
+
+class Interval {
+ public:
+  Interval() : x_(0.0) {}
+  explicit Interval(int value) : x_(value) {}
+  // REQUIRES value is finite.
+  explicit Interval(double value) : x_(finite(value)) {}
+  // [lower, upper]; the ends may be infinite. REQUIRES lower ≤ upper, a number between them.
+  Interval(double lower, double upper) : x_(ordered(lower, upper)) {}
+
+  double inf() const { return x_.inf(); }
+  double sup() const { return x_.sup(); }
+  bool is_point() const { return x_.is_point(); }
+
+  Interval& operator+=(const Interval& o) { return *this = *this + o; }
+  Interval& operator-=(const Interval& o) { return *this = *this - o; }
+  Interval& operator*=(const Interval& o) { return *this = *this * o; }
+  Interval& operator/=(const Interval& o) { return *this = *this / o; }
+  friend Interval operator-(const Interval& a) { return Interval(-a.x_); }
+  friend Interval operator+(const Interval& a, const Interval& b) { return guarded(), Interval(a.x_ + b.x_); }
+  friend Interval operator-(const Interval& a, const Interval& b) { return guarded(), Interval(a.x_ - b.x_); }
+  friend Interval operator*(const Interval& a, const Interval& b) { return guarded(), Interval(a.x_ * b.x_); }
+  friend Interval operator/(const Interval& a, const Interval& b) { return guarded(), Interval(a.x_ / b.x_); }
+  // Tighter than a * a: never negative.
+  friend Interval square(const Interval& a) { return guarded(), Interval(CGAL::square(a.x_)); }
+  // The negative part of the operand is cut off. REQUIRES sup ≥ 0.
+  friend Interval sqrt(const Interval& a) {
+    PATCHPROOF_REQUIRES(a.sup() >= 0, "sqrt of a negative Interval");
+    return guarded(), Interval(CGAL::sqrt(a.x_));
+  }
+
+ private:
+  using Bounds = CGAL::Interval_nt_advanced;
+  explicit Interval(const Bounds& x) : x_(x) {}
+  static double finite(double value) {
+    PATCHPROOF_REQUIRES(std::isfinite(value), "Interval: NaN and infinity are not numbers");
+    return value;
+  }
+  static Bounds ordered(double lower, double upper) {
+    PATCHPROOF_REQUIRES(lower <= upper && lower <= kLargest && upper >= -kLargest, "Interval: lower ≤ upper, not NaN");
+    return Bounds(lower, upper);
+  }
+  static void guarded() {
+#ifndef NDEBUG
+    PATCHPROOF_REQUIRES(CGAL::FPU_get_cw() == CGAL_FE_UPWARD, "Interval arithmetic without a RoundingGuard");
+#endif
+  }
+  static constexpr double kLargest = std::numeric_limits<double>::max();
+
+  Bounds x_;
+};
 
 template <>
 struct scalar_traits<Interval> {
   static constexpr bool is_exact = false;
+  static constexpr bool is_field = true;
   static constexpr bool is_ordered = false;
   static std::optional<Sign> sign(const Interval& x) {
     if (x.inf() > 0) return Sign::positive;

@@ -66,6 +66,7 @@ class Quadratic {
 template <>
 struct scalar_traits<Quadratic> {
   static constexpr bool is_exact = true;
+  static constexpr bool is_field = true;
   static constexpr bool is_ordered = true;
   static std::optional<Sign> sign(const Quadratic& x) { return x.sign(); }
   using knot_scalar = Quadratic;

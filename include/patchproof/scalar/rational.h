@@ -17,6 +17,7 @@ using Rational = boost::multiprecision::number<boost::multiprecision::gmp_ration
 template <>
 struct scalar_traits<Rational> {
   static constexpr bool is_exact = true;
+  static constexpr bool is_field = true;
   static constexpr bool is_ordered = true;
   static std::optional<Sign> sign(const Rational& x) { return static_cast<Sign>(mpq_sgn(x.backend().data())); }
   using knot_scalar = Rational;
