@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rungs of the ladder. Each is a function of its own that tests call and reports name.
+//
+//   interval   forms in interval arithmetic: may refute equality and bound deviations; never proves equality
+//   exact      forms over Integer ("integer") or Q(√d) ("quadratic"): decides every class
+//
+// ENSURES  (1) what the interval rung answers, the exact rung answers too;  (2) both rungs' bounds enclose the supremum.
+// REQUIRES a RoundingGuard alive.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "patchproof/join/continuity.h"
+#include "patchproof/join/deviation.h"
+#include "patchproof/join/pieces.h"
+
+namespace patchproof {
+
+// Are all entries within 2^±60, so that no product of a join polynomial leaves the range of doubles?
+template <ExactField T>
+bool fits_interval_rung(const std::vector<JoinPiece<T>>& pieces);
+
+// Some piece's points differ certainly.
+bool interval_rung_refutes_c0(const std::vector<JoinForms<Interval>>& forms);
+
+template <Ring R>
+DeviationBound bound_gap(const std::vector<JoinForms<R>>& forms, const Budget& budget) {
+  std::vector<DeviationPiece> pieces;
+  for (const JoinForms<R>& f : forms)
+    pieces.push_back(deviation_piece(point_difference(f.a, f.b), f.a.weight[0] * f.b.weight[0]));
+  return bound_deviation(pieces, Deviation::gap, budget);
+}
+
+// First-order normals as they are: not converged where one of them vanishes.
+DeviationBound interval_rung_bound_angle(const std::vector<JoinForms<Interval>>& forms, const Budget& budget);
+
+// Reduced normals: converges wherever limit normals exist. REQUIRES all normals found.
+template <ExactRing R>
+DeviationBound exact_rung_bound_angle(const std::vector<std::pair<ReducedNormal<R>, ReducedNormal<R>>>& normals,
+                                      const Budget& budget) {
+  std::vector<DeviationPiece> pieces;
+  for (const auto& [a, b] : normals)
+    pieces.push_back(deviation_piece(cross(b.n, a.n), -dot(a.n, b.n), a.factor * b.factor));
+  return bound_deviation(pieces, Deviation::angle, budget);
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+template <ExactField T>
+bool fits_interval_rung(const std::vector<JoinPiece<T>>& pieces) {
+  for (const JoinPiece<T>& piece : pieces)
+    for (const SideRows<T>* side : {&piece.a, &piece.b})
+      for (const auto& row : *side)
+        for (const Vec<T, 4>& p : row)
+          for (const T& x : p.c) {
+            const ScaledInterval s = enclose_scaled(x);
+            if (s.exponent > 60 || s.exponent < -60) return false;
+          }
+  return true;
+}
+
+}  // namespace patchproof
