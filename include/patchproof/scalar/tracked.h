@@ -104,6 +104,7 @@ template <>
 struct embedding<Tracked, Rational> {
   static Tracked apply(const Rational& x) {
     const double v = nearest_double(x);
+    if (!std::isfinite(v)) return Tracked(v, std::numeric_limits<double>::infinity());
     const double error = std::fabs(v) * (std::numeric_limits<double>::epsilon() / 2);
     return Tracked(v, from_double(v) == x ? 0.0 : error + std::numeric_limits<double>::denorm_min());
   }
