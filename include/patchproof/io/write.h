@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writing models: our JSON (docs/formats.md), with every number exact.
+//
+// Numbers are written as decimals where that is exact and short, else as strings: "1/3", "1/2*sqrt(2)". Knots are left out
+// where they are Bézier knots on [0, 1]. A rational patch is written with points in space and "weights", or, when a weight
+// is zero, with homogeneous points [w·x, w·y, w·z, w].
+//
+// ENSURES  (1) read_model_text(write_model_json(m)) gives m back: the same names, units, knots, homogeneous points and joins;
+//          (2) the same model gives the same bytes.
+// NEIGHBOURS read.h
+// TEST     tests/io/write_test.cpp checks (1)–(2).
+#pragma once
+
+#include <string>
+
+#include "patchproof/io/model.h"
+
+namespace patchproof {
+
+// T: Rational or Quadratic.
+template <ExactField T>
+std::string write_model_json(const Model<T>& model);
+
+// "u_min", "u_max", "v_min", "v_max".
+const char* to_string(EdgeName edge);
+
+}  // namespace patchproof

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every reader produces, one patch at a time: the texts of its numbers, as views into the file, and where they stand.
+// The step from texts to exact numbers is shared (model_builder.h), so no reader knows a number type.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "source_file.h"
+#include "patchproof/io/model.h"
+
+namespace patchproof {
+
+inline constexpr int kMaxDegree = 64;
+
+enum class Weights {
+  none,         // every weight is 1
+  separate,     // in `weights`; the coordinates are those of the points in space
+  homogeneous,  // last number of every point; the coordinates are already multiplied by it
+};
+
+// How a JSON pointer to a number of the patch is spelt.
+enum class JsonLayout { none, model, geomdl };
+
+struct RawPatch {
+  std::string name;
+  std::array<long, 2> degree{};
+  bool has_knots = false;  // false: Bézier knots on [0, 1]
+  std::array<std::vector<std::string_view>, 2> knots;
+  std::array<long, 2> count{};  // control points along u and v
+  int per_point = 3;            // numbers per point: 2 or 3, and one more when homogeneous
+  Weights weight_form = Weights::none;
+  bool u_fastest = false;  // the order of the points in the file
+  std::vector<std::string_view> coordinates, weights;
+
+  std::string_view at;  // where the patch begins
+  JsonLayout layout = JsonLayout::none;
+  std::string pointer;  // of the patch, JSON only
+
+  int dimension() const { return per_point - (weight_form == Weights::homogeneous ? 1 : 0); }
+  // JSON pointers to one number (empty in text formats). Points are numbered in the order of the file.
+  std::string knot_pointer(int direction, std::size_t k) const;
+  std::string coordinate_pointer(std::size_t point, int component) const;
+  std::string weight_pointer(std::size_t point) const;
+  std::string member_pointer(std::string_view member) const;
+  std::string weights_pointer() const;
+};
+
+// Where readers deliver. The first error ends the reading.
+class ModelSink {
+ public:
+  virtual ~ModelSink() = default;
+  virtual std::optional<Error> add(const RawPatch& patch) = 0;
+  // The first text among the patch's numbers that is none: what a reader asks when a file ends inside a patch, because two
+  // numbers run together make a file seem too short.
+  virtual std::optional<Error> first_bad_number(const RawPatch& patch) = 0;
+  virtual std::size_t patch_count() const = 0;
+
+  std::vector<DeclaredJoin> joins;
+  std::string units;
+  std::vector<std::string> notes;
+};
+
+// One reader per format; each either delivers the whole file or returns an error.
+using Reader = std::optional<Error> (*)(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_newell(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_bpt(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_bez(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_g2(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_gismo(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_json_model(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_geomdl(const SourceFile& source, ModelSink& sink);
+
+}  // namespace patchproof
