@@ -66,7 +66,8 @@ TYPED_TEST(CurveLaws, Law1And2_ValuesAndDerivativesFromBothSides) {
     for (const Rational& t : parameters)
       for (Side side : {Side::left, Side::right}) {
         const int span = c.knots().find_span(t, side);
-        check<TypeParam>(piece_at(c, span, t), [&]<class S>() { return evaluate(make_curve<S>(c), make_knot<S>(t), side); });
+        check<TypeParam>(piece_at(c, span, t),
+                         [&]<class S>() { return evaluate(make_curve<S>(c), make_knot<S>(t), side); });
         std::vector<Point> exact;
         for (int order = 0; order <= 3; ++order) exact.push_back(piece_at(c, span, t, order));
         check<TypeParam>(exact, [&]<class S>() { return derivatives(make_curve<S>(c), make_knot<S>(t), 3, side); });
@@ -247,7 +248,8 @@ TEST(CurveExact, Law2_PeriodicCubicClosesSmoothly) {
 // Where the domain lies and how long it is does not matter: here [1.408, …] and knots around 10^6, tiny and huge spans.
 TEST(CurveExact, Law1_AffineChangesOfTheKnotsLeaveTheValues) {
   RandomRationals random;
-  for (const auto& [begin, scale] : {std::pair{q(1408, 1000), q(3, 7)}, {q(1000000), q(1, 1 << 30)}, {q(-5), q(1 << 30)}}) {
+  for (const auto& [begin, scale] :
+       {std::pair{q(1408, 1000), q(3, 7)}, {q(1000000), q(1, 1 << 30)}, {q(-5), q(1 << 30)}}) {
     const Curve c = random_curve(random);
     const auto moved = [&](const Rational& t) { return Rational(begin + scale * t); };
     Numbers knots;

@@ -23,36 +23,15 @@
 // SOURCE    C. de Boor, A Practical Guide to Splines, chapters IX–X.
 #pragma once
 
-#include <concepts>
 #include <utility>
 #include <vector>
 
 #include "patchproof/contract.h"
 #include "patchproof/scalar/concepts.h"
+#include "patchproof/spline/knot_ratio.h"
 #include "patchproof/spline/knot_vector.h"
 
 namespace patchproof {
-
-// (t − t_lower)/(t_upper − t_lower) in R. Computed in K when t is of that type and exact, so that a rational parameter
-// costs an enclosure only one rounding; otherwise in R, so that no rounding escapes R's bounds.
-template <Ring R, OrderedField K, class U>
-R knot_ratio(const KnotVector<K>& knots, const U& t, int lower, int upper) {
-  if constexpr (std::same_as<U, K> && scalar_traits<K>::is_exact) {
-    return embed<R>(K((t - knots[lower]) / (knots[upper] - knots[lower])));
-  } else {
-    const R begin = embed<R>(knots[lower]);
-    return (embed<R>(t) - begin) / (embed<R>(knots[upper]) - begin);
-  }
-}
-
-// degree/(t_upper − t_lower) in R.
-template <Ring R, OrderedField K>
-R knot_rate(const KnotVector<K>& knots, int degree, int lower, int upper) {
-  if constexpr (scalar_traits<K>::is_exact)
-    return embed<R>(K(K(degree) / (knots[upper] - knots[lower])));
-  else
-    return R(degree) / (embed<R>(knots[upper]) - embed<R>(knots[lower]));
-}
 
 // The order-th derivatives at t of the p + 1 functions N_{span−p} … N_span.
 template <Ring R, OrderedField K, class U>
@@ -114,11 +93,11 @@ std::vector<R> basis_derivative_in_span(const KnotVector<K>& knots, int span, co
     for (int l = 0; l < r; ++l) {
       const int j = span - r + 1 + l;
       if (r <= p - order) {
-        const R w = knot_ratio<R>(knots, t, j, j + r);
+        const R w = knot_ratio<R>(t, knots[j], knots[j + r]);
         raised[l] += (R(1) - w) * functions[l];
         raised[l + 1] = w * functions[l];
       } else {
-        const R change = knot_rate<R>(knots, r, j, j + r) * functions[l];
+        const R change = knot_rate<R>(r, knots[j], knots[j + r]) * functions[l];
         raised[l] += -change;
         raised[l + 1] = change;
       }

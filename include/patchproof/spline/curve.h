@@ -130,7 +130,7 @@ Vec<R, N> de_boor(const KnotVector<K>& knots, int span, std::vector<Vec<R, N>> d
   for (int r = 1; r <= q; ++r)
     for (int l = q; l >= r; --l) {
       const int j = span - q + l;
-      const R alpha = knot_ratio<R>(knots, argument(r), j, j + q + 1 - r);
+      const R alpha = knot_ratio<R>(argument(r), knots[j], knots[j + q + 1 - r]);
       d[l] = (R(1) - alpha) * d[l - 1] + alpha * d[l];
     }
   return d[q];
@@ -146,7 +146,7 @@ Vec<R, N> derivative_in_span(const BsplineCurve<T, N, K>& curve, int span, const
   for (int q = curve.degree(); q > curve.degree() - order; --q) {
     for (int l = 0; l < q; ++l) {
       const int j = span - q + 1 + l;
-      d[l] = knot_rate<R>(curve.knots(), q, j, j + q) * (d[l + 1] - d[l]);
+      d[l] = knot_rate<R>(q, curve.knots()[j], curve.knots()[j + q]) * (d[l + 1] - d[l]);
     }
     d.pop_back();
   }
@@ -168,7 +168,7 @@ BsplineCurve<T, N, K> derivative_curve(const BsplineCurve<T, N, K>& curve) {
   std::vector<Vec<T, N>> points(n - 1);
   for (int i = 0; i + 1 < n; ++i)
     if (knots[i + 1] < knots[i + p + 1])
-      points[i] = knot_rate<T>(knots, p, i + 1, i + p + 1) * (curve.points()[i + 1] - curve.points()[i]);
+      points[i] = knot_rate<T>(p, knots[i + 1], knots[i + p + 1]) * (curve.points()[i + 1] - curve.points()[i]);
   std::vector<K> inner(knots.knots().begin() + 1, knots.knots().end() - 1);
   return BsplineCurve<T, N, K>(KnotVector<K>::make_unchecked(p - 1, std::move(inner)), std::move(points));
 }
