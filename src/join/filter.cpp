@@ -3,6 +3,24 @@
 
 namespace patchproof {
 
+bool fits_interval_rung(const std::vector<JoinForms<Interval>>& forms) {
+  constexpr double kLargest = 0x1p60, kSmallest = 0x1p-60;
+  const auto fits = [&](const BinaryForm<Interval>& f) {
+    for (const Interval& x : f.coefficients()) {
+      const double size = std::max(x.sup(), -x.inf());
+      if (size != 0 && (size > kLargest || size < kSmallest)) return false;
+    }
+    return true;
+  };
+  for (const JoinForms<Interval>& f : forms)
+    for (const SideForms<Interval>* side : {&f.a, &f.b})
+      for (int k = 0; k < 3; ++k)
+        if (!fits(side->weight[k]) || !fits(side->position[k][0]) || !fits(side->position[k][1]) ||
+            !fits(side->position[k][2]))
+          return false;
+  return true;
+}
+
 bool interval_rung_refutes_c0(const std::vector<JoinForms<Interval>>& forms) {
   for (const JoinForms<Interval>& f : forms)
     for (const BinaryForm<Interval>& c : point_difference(f.a, f.b)) {

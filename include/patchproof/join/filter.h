@@ -17,9 +17,8 @@
 
 namespace patchproof {
 
-// Are all entries within 2^±60, so that no product of a join polynomial leaves the range of doubles?
-template <ExactField T>
-bool fits_interval_rung(const std::vector<JoinPiece<T>>& pieces);
+// Are all coefficients within 2^±60, so that no product of a join polynomial leaves the range of doubles?
+bool fits_interval_rung(const std::vector<JoinForms<Interval>>& forms);
 
 // Some piece's points differ certainly.
 bool interval_rung_refutes_c0(const std::vector<JoinForms<Interval>>& forms);
@@ -43,21 +42,6 @@ DeviationBound exact_rung_bound_angle(const std::vector<std::pair<ReducedNormal<
   for (const auto& [a, b] : normals)
     pieces.push_back(deviation_piece(cross(b.n, a.n), -dot(a.n, b.n), a.factor * b.factor));
   return bound_deviation(pieces, Deviation::angle, budget);
-}
-
-// ---------------------------------------------------------------------------------------------------------------------
-
-template <ExactField T>
-bool fits_interval_rung(const std::vector<JoinPiece<T>>& pieces) {
-  for (const JoinPiece<T>& piece : pieces)
-    for (const SideRows<T>* side : {&piece.a, &piece.b})
-      for (const auto& row : *side)
-        for (const Vec<T, 4>& p : row)
-          for (const T& x : p.c) {
-            const ScaledInterval s = enclose_scaled(x);
-            if (s.exponent > 60 || s.exponent < -60) return false;
-          }
-  return true;
 }
 
 }  // namespace patchproof

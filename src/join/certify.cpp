@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patchproof/join/certify.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+
+#include "join/witness.h"
+#include "patchproof/join/filter.h"
+#include "patchproof/scalar/parse_scalar.h"
+#include "patchproof/scalar/quadratic.h"
+
+namespace patchproof {
+namespace {
+
+constexpr const char* rung_name(const Rational*) { return "integer"; }
+constexpr const char* rung_name(const Quadratic*) { return "quadratic"; }
+
+template <ExactField T>
+class JoinCertifier {
+  using R = proof_ring_t<T>;
+
+ public:
+  JoinCertifier(const BsplinePatch<T, 4>& a, const BsplinePatch<T, 4>& b, const Join<T>& join, const Request& request)
+      : pieces_(join_pieces(a, b, join)), witnesses_(join, pieces_) {
+    budget_.deadline = std::chrono::steady_clock::now() +
+                       std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                           std::chrono::duration<double>(std::min(request.seconds_per_join, 1e6)));
+    for (const JoinPiece<T>& piece : pieces_) interval_.push_back(join_forms<Interval>(piece));
+    fits_ = fits_interval_rung(interval_);
+  }
+
+  Certificate run() {
+    certificate_.rung = "interval";
+    if (fits_ && interval_rung_refutes_c0(interval_)) {
+      set_gap(bound_gap(interval_, budget_));
+      if (!certificate_.gap.converged) set_gap(bound_gap(exact(), budget_));
+      refute_without_c0();
+    } else if (std::all_of(exact().begin(), exact().end(), [](const JoinForms<R>& f) { return is_c0(f); })) {
+      certificate_.c0.verdict = Verdict::proven;
+      certificate_.gap.at = witnesses_.place(0, T(0));
+      decide_smoothness();
+      if (certificate_.g1.verdict == Verdict::proven || orientation_known_) return std::move(certificate_);
+    } else {
+      set_gap(bound_gap(exact(), budget_));
+      refute_without_c0();
+    }
+    bound_angle();
+    return std::move(certificate_);
+  }
+
+ private:
+  const std::vector<JoinForms<R>>& exact() {
+    if (exact_.empty()) {
+      certificate_.rung = rung_name(static_cast<const T*>(nullptr));
+      for (const JoinPiece<T>& piece : pieces_) exact_.push_back(join_forms<R>(piece));
+    }
+    return exact_;
+  }
+
+  EnclosedMaximum located(const DeviationBound& bound) {
+    EnclosedMaximum maximum{bound.lower, bound.upper, {}, bound.converged};
+    maximum.at = witnesses_.place(bound.piece, embed<T>(from_double(bound.t)));
+    return maximum;
+  }
+  void set_gap(const DeviationBound& bound) {
+    certificate_.gap = located(bound);
+    gap_witness_ = {bound.piece, embed<T>(from_double(bound.t))};
+  }
+
+  void refute_without_c0() {
+    certificate_.c0 = {Verdict::refuted, "the edge curves differ",
+                       witnesses_.find(Quantity::point_difference, gap_witness_)};
+    for (ExactClass* c : {&certificate_.c1, &certificate_.c2, &certificate_.g1})
+      *c = {Verdict::refuted, "not C0", std::nullopt};
+  }
+
+  void decide_smoothness() {
+    decide_cross_derivatives();
+    if (!reduce_normals()) {
+      certificate_.g1 = {Verdict::undecided, "no normal up to second order along a whole edge", std::nullopt};
+      return;
+    }
+    for (std::size_t i = 0; i < exact().size(); ++i)
+      if (!is_coplanar(exact()[i], normals_[i].first, normals_[i].second)) {
+        certificate_.g1 = {Verdict::refuted, "the tangent planes differ",
+                           witnesses_.find(Quantity::coplanarity, {static_cast<int>(i), T(1) / T(2)})};
+        if (!certificate_.g1.witness)  // only a limit normal tells them apart
+          certificate_.g1.reason = "the limit tangent planes differ";
+        return;
+      }
+    decide_orientation();
+  }
+
+  // False when a side has no normal up to second order on some piece.
+  bool reduce_normals() {
+    if (!normals_.empty()) return normals_found_;
+    for (std::size_t i = 0; i < exact().size(); ++i) {
+      normals_.emplace_back(reduce_normal(exact()[i].a), reduce_normal(exact()[i].b));
+      note_degeneracies('a', normals_.back().first, pieces_[i]);
+      note_degeneracies('b', normals_.back().second, pieces_[i]);
+      normals_found_ = normals_found_ && normals_.back().first.found() && normals_.back().second.found();
+    }
+    return normals_found_;
+  }
+
+  void decide_cross_derivatives() {
+    bool equal = true, constant = true, determined = false;
+    std::optional<T> ratio;
+    int differing = 0;
+    for (std::size_t i = 0; i < exact().size(); ++i) {
+      const CrossMatch<R> match = match_cross_derivatives(exact()[i]);
+      if (equal && !match.equal) equal = false, differing = static_cast<int>(i);
+      if (!match.determined) continue;
+      determined = true;
+      if (!match.ratio) {
+        constant = false;
+        continue;
+      }
+      const T lambda = embed<T>(match.ratio->first) / embed<T>(match.ratio->second);
+      if (ratio && !(*ratio == lambda)) constant = false;
+      ratio = lambda;
+    }
+    if (determined && constant && *scalar_traits<T>::sign(*ratio) == Sign::positive)
+      certificate_.ratio = to_text(*ratio);
+    if (!equal) {
+      const std::string reason = certificate_.ratio
+                                     ? "cross-boundary derivatives differ by the constant factor " + *certificate_.ratio
+                                     : "cross-boundary derivatives differ";
+      certificate_.c1 = {Verdict::refuted, reason, witnesses_.find(Quantity::first_derivative, {differing, T(1) / T(2)})};
+      certificate_.c2 = {Verdict::refuted, "not C1", std::nullopt};
+      return;
+    }
+    certificate_.c1.verdict = Verdict::proven;
+    certificate_.c2.verdict = Verdict::proven;
+    for (std::size_t i = 0; i < exact().size(); ++i)
+      if (!is_c2(exact()[i])) {
+        certificate_.c2 = {Verdict::refuted, "second cross-boundary derivatives differ",
+                           witnesses_.find(Quantity::second_derivative, {static_cast<int>(i), T(1) / T(2)})};
+        return;
+      }
+  }
+
+  void note_degeneracies(char side, const ReducedNormal<R>& normal, const JoinPiece<T>& piece) {
+    const auto add = [&](const T& begin, const T& end, const std::string& what) {
+      const auto at = [&](const T& t) { return nearest_double(T(piece.a_begin + t * (piece.a_end - piece.a_begin))); };
+      certificate_.degenerate.push_back({side, at(begin), at(end), what});
+    };
+    if (!normal.found()) {
+      add(T(0), T(1), "no normal up to second order");
+      return;
+    }
+    if (normal.order == NormalOrder::second)
+      add(T(0), T(1), "the normal vanishes along the line; its second-order limit is used");
+    if (normal.ends.at_zero > 0) add(T(0), T(0), "the normal vanishes; its limit is used");
+    if (normal.ends.at_one > 0) add(T(1), T(1), "the normal vanishes; its limit is used");
+    if (normal.has_factor())
+      for (const auto& [begin, end] : isolate_roots(over_field(normal.factor), T(T(1) / T(1 << 20))))
+        add(begin, end, "the normal vanishes; its limit is used");
+  }
+
+  // Coplanar normals: the signs of n_A · n_B between the zeros of the divided factors.
+  void decide_orientation() {
+    bool smooth = false, cusp = false;
+    std::pair<int, T> cusp_at{0, T(1) / T(2)};
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+      const auto& [a, b] = normals_[i];
+      const BinaryForm<T> factor = over_field(a.factor) * over_field(b.factor), side = over_field(dot(a.n, b.n));
+      std::vector<T> samples{T(1) / T(2)};
+      if (factor.degree() > 0) {
+        samples.clear();
+        T left(0);
+        for (const auto& [begin, end] : isolate_roots(factor, T(T(1) / T(1 << 20)))) {
+          samples.push_back((left + begin) / T(2));
+          left = end;
+        }
+        samples.push_back((left + T(1)) / T(2));
+      }
+      for (const T& t : samples) {
+        const Sign sign = *scalar_traits<T>::sign(factor(t) * side(t));
+        if (sign == Sign::negative) smooth = true;
+        if (sign == Sign::positive) cusp = true, cusp_at = {static_cast<int>(i), t};
+      }
+    }
+    orientation_known_ = true;
+    certificate_.angle.at = witnesses_.place(0, T(0));
+    if (smooth && !cusp) {
+      certificate_.g1.verdict = Verdict::proven;
+      certificate_.orientation = Orientation::smooth;
+      return;
+    }
+    certificate_.orientation = smooth ? Orientation::mixed : Orientation::cusp;
+    certificate_.g1 = {Verdict::refuted,
+                       smooth ? "the patches change sides along the edge" : "the patches fold back on each other",
+                       witnesses_.find(Quantity::normal_product, cusp_at)};
+    certificate_.angle = {180, 180, witnesses_.place(cusp_at.first, cusp_at.second), true};
+  }
+
+  void bound_angle() {
+    DeviationBound bound;
+    bound.converged = false;
+    if (fits_) bound = interval_rung_bound_angle(interval_, budget_);
+    if (bound.converged && bound.upper < 90) {
+      certificate_.orientation = Orientation::smooth;
+    } else if (!reduce_normals()) {
+      certificate_.angle = {0, 180, witnesses_.place(0, T(0)), false};
+      return;
+    } else {
+      if (!bound.converged || bound.upper >= 180) bound = exact_rung_bound_angle(normals_, budget_);
+      certificate_.orientation = bound.upper < 90 ? Orientation::smooth : orientation_of_normals();
+    }
+    certificate_.angle = located(bound);
+  }
+
+  // By the sign of n_A · n_B over the whole join: mixed when it is not certainly one sign.
+  Orientation orientation_of_normals() const {
+    std::optional<Sign> sign;
+    for (const auto& [a, b] : normals_) {
+      const BinaryForm<R> side = dot(a.n, b.n);
+      if (a.has_factor() || b.has_factor() || vanishes(side) ||
+          !detail::certainly_zero_free(detail::enclose_vector(FormVector<R>{side, {}, {}})))
+        return Orientation::mixed;
+      const Sign here = *scalar_traits<R>::sign(side[0]);
+      if (sign && *sign != here) return Orientation::mixed;
+      sign = here;
+    }
+    return *sign == Sign::negative ? Orientation::smooth : Orientation::cusp;
+  }
+
+  std::vector<JoinPiece<T>> pieces_;
+  WitnessFinder<T> witnesses_;
+  Budget budget_;
+  std::vector<JoinForms<Interval>> interval_;
+  bool fits_ = false;
+  std::vector<JoinForms<R>> exact_;
+  std::vector<std::pair<ReducedNormal<R>, ReducedNormal<R>>> normals_;
+  bool normals_found_ = true;
+  std::pair<int, T> gap_witness_{0, T(0)};
+  bool orientation_known_ = false;
+  Certificate certificate_;
+};
+
+}  // namespace
+
+template <ExactField T>
+Certificate certify_join(const BsplinePatch<T, 4>& a, const BsplinePatch<T, 4>& b, const Join<T>& join,
+                         const Request& request) {
+  const RoundingGuard guard;
+  return JoinCertifier<T>(a, b, join, request).run();
+}
+
+template <ExactField T>
+std::vector<Certificate> certify_joins(const std::vector<const BsplinePatch<T, 4>*>& patches,
+                                       const std::vector<Join<T>>& joins, const Request& request, int jobs,
+                                       const std::function<void(std::size_t)>& progress) {
+  std::vector<Certificate> certificates(joins.size());
+  std::atomic<std::size_t> done{0};
+  tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, joins.size(), [&](std::size_t i) {
+      certificates[i] = certify_join(*patches[joins[i].patch_a], *patches[joins[i].patch_b], joins[i], request);
+      const std::size_t now = ++done;
+      if (progress) progress(now);
+    });
+  });
+  return certificates;
+}
+
+template Certificate certify_join(const BsplinePatch<Rational, 4>&, const BsplinePatch<Rational, 4>&,
+                                  const Join<Rational>&, const Request&);
+template Certificate certify_join(const BsplinePatch<Quadratic, 4>&, const BsplinePatch<Quadratic, 4>&,
+                                  const Join<Quadratic>&, const Request&);
+template std::vector<Certificate> certify_joins(const std::vector<const BsplinePatch<Rational, 4>*>&,
+                                                const std::vector<Join<Rational>>&, const Request&, int,
+                                                const std::function<void(std::size_t)>&);
+template std::vector<Certificate> certify_joins(const std::vector<const BsplinePatch<Quadratic, 4>*>&,
+                                                const std::vector<Join<Quadratic>>&, const Request&, int,
+                                                const std::function<void(std::size_t)>&);
+
+}  // namespace patchproof

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which point of one edge belongs to which point of another, as exact data.
+#pragma once
+
+#include <optional>
+
+#include "join/edge_curve.h"
+#include "patchproof/join/continuity.h"
+#include "patchproof/join/pieces.h"
+#include "patchproof/spline/bernstein.h"
+
+namespace patchproof {
+
+// The exact parameter of the edge at `unit` of its range [begin, end] (0 and 1 are the ends themselves).
+template <ExactField T>
+T at_unit(const T& begin, const T& end, const T& unit) {
+  return begin + unit * (end - begin);
+}
+
+// The simplest fraction within `radius` of x (Stern–Brocot descent). REQUIRES 0 <= x <= 1.
+inline Rational simplest_fraction(double x, double radius) {
+  const Rational low = from_double(std::max(0.0, x - radius)), high = from_double(std::min(1.0, x + radius));
+  Integer a(0), b(1), c(1), d(1);  // a/b <= low, high <= c/d
+  if (low == 0) return Rational(0);
+  if (high == 1) return Rational(1);
+  for (int i = 0; i < 4000; ++i) {
+    const Integer n = a + c, m = b + d;
+    const Rational mediant(n, m);
+    if (mediant < low) {
+      a = n, b = m;
+    } else if (high < mediant) {
+      c = n, d = m;
+    } else {
+      return mediant;
+    }
+  }
+  return from_double(x);
+}
+
+// A pairing of the ranges [a0, a1] and [b0, b1] (b1 < b0 when reversed): affine.
+template <ExactField T>
+Pairing<T> affine_pairing(const T& a0, const T& a1, const T& b0, const T& b1) {
+  const T da = a1 - a0, db = b1 < b0 ? b0 - b1 : b1 - b0;
+  return {da == db ? PairingKind::identity : PairingKind::affine, {a0, a1}, {b0, b1}, T(1)};
+}
+
+// If the edges are one curve under y = r x/(1 − x + r x): that pairing. Both must be single Bézier pieces.
+// The weights then satisfy w_B,i r^i = λ w_A,i after bringing both to one degree, which gives r; the rest is checked exactly.
+template <ExactField T>
+std::optional<Pairing<T>> rational_linear_pairing(const BsplinePatch<T, 4>& a, const BsplinePatch<T, 4>& b,
+                                                  const Join<T>& join) {
+  const std::vector<JoinPiece<T>> pieces = join_pieces(a, b, join);
+  if (pieces.size() != 1) return std::nullopt;
+  std::vector<Vec<T, 4>> x = pieces[0].a[0], y = pieces[0].b[0];
+  while (x.size() < y.size()) x = elevate_degree(std::move(x));
+  while (y.size() < x.size()) y = elevate_degree(std::move(y));
+  if (x.size() < 2) return std::nullopt;
+  for (int i : {0, 1})
+    for (const auto& p : {x[i], y[i]})
+      if (*scalar_traits<T>::sign(p[3]) == Sign::zero) return std::nullopt;
+  const T r = x[1][3] * y[0][3] / (x[0][3] * y[1][3]);
+  if (*scalar_traits<T>::sign(r) != Sign::positive || r == T(1)) return std::nullopt;
+  Join<T> candidate = join;
+  candidate.pairing.kind = PairingKind::rational_linear;
+  candidate.pairing.ratio = r;
+  const std::vector<JoinPiece<T>> paired = join_pieces(a, b, candidate);
+  return is_c0(join_forms<proof_ring_t<T>>(paired[0])) ? std::optional(candidate.pairing) : std::nullopt;
+}
+
+// A monotone piecewise linear pairing by nearest points, for edges that lie on each other but run differently.
+// REQUIRES the ends already belong together. Refined until the paired points between the nodes are within `length`, or
+// 1024 pieces.
+template <ExactField T>
+Pairing<T> nearest_point_pairing(const EdgeCurve& a, const EdgeCurve& b, const T& a0, const T& a1, const T& b0, const T& b1,
+                                 double length) {
+  const bool reversed = b1 < b0;
+  const auto on_b = [&](double unit) { return b(reversed ? 1 - unit : unit); };
+  std::vector<double> units;
+  for (int pieces = 16; pieces <= 1024; pieces *= 2) {
+    units.assign(1, 0.0);
+    for (int i = 1; i < pieces; ++i) {
+      const Point3 q = a(double(i) / pieces);
+      const double from = units.back(), to = std::min(1.0, from + 8.0 / pieces);
+      const double found = reversed ? 1 - b.nearest(q, 1 - to, 1 - from).first : b.nearest(q, from, to).first;
+      // Strictly monotone, leaving room for the nodes that follow.
+      units.push_back(std::clamp(found, from + 1e-3 / pieces, 1 - 1e-3 * (pieces - i) / pieces));
+    }
+    units.push_back(1);
+    double worst = 0;
+    for (int i = 0; i < pieces; ++i)
+      worst = std::max(worst, distance(a((i + 0.5) / pieces), on_b((units[i] + units[i + 1]) / 2)));
+    if (worst <= length) break;
+  }
+  Pairing<T> pairing;
+  pairing.kind = PairingKind::piecewise_linear;
+  const int pieces = static_cast<int>(units.size()) - 1;
+  for (int i = 0; i <= pieces; ++i) {
+    pairing.a.push_back(at_unit(a0, a1, T(T(i) / T(pieces))));
+    pairing.b.push_back(at_unit(b0, b1, embed<T>(from_double(units[i]))));
+  }
+  return pairing;
+}
+
+}  // namespace patchproof
