@@ -11,7 +11,7 @@
 //
 // ENSURES   (1) reverse: the identity above, knots mirrored; twice gives the curve back (exactly in exact scalars);
 //           (2) map_domain: the same points, knots mapped; (3) moebius: the identity above for every piece; multiplicities
-//           stay; C'(0) = C(0) and C'(1) = r^p C(1); r then 1/r gives the curve back up to one factor; r = 1 changes nothing.
+//           stay; C'(0) = C(0) and C'(1) = r^p C(1); r then 1/r gives the curve back; r = 1 changes nothing.
 //           On a domain [a, b] moebius acts on (t − a)/(b − a).
 //           With rounded knots the ends of the domain are exact and inner knots are rounded; if that breaks their order it
 //           is a broken contract.
