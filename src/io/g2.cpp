@@ -32,7 +32,7 @@ class G2Reader {
       if (!object()) return error_;
     if (sink_.patch_count() == 0)
       return cursor_.ended(ErrorCode::unsupported, "the file holds no spline surface", fmt::format("{} curves", curves_));
-    if (curves_ > 0) sink_.notes.push_back(fmt::format("{} curves skipped", curves_));
+    if (curves_ > 0) sink_.notes.push_back(fmt::format("{} curve{} skipped", curves_, curves_ == 1 ? "" : "s"));
     return std::nullopt;
   }
 

@@ -176,7 +176,7 @@ std::string_view JsonWalker::number_text() const {
   return std::string_view(first, static_cast<std::size_t>(end - first));
 }
 
-// The letters, digits and signs around the place where the parser stopped.
+// The letters, digits and signs around the place where the parser stopped, or the one character that stands there.
 std::string_view JsonWalker::word_here() const {
   const auto belongs = [](char c) { return is_number_char(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '/'; };
   const char* const begin = source_.bytes.data();
@@ -185,6 +185,7 @@ std::string_view JsonWalker::word_here() const {
   const char* last = first;
   while (first != begin && belongs(first[-1])) --first;
   while (last != end && belongs(*last)) ++last;
+  if (first == last && last != end) ++last;
   return std::string_view(first, static_cast<std::size_t>(last - first));
 }
 
@@ -231,18 +232,20 @@ bool JsonWalker::key(std::string& name) {
   return true;
 }
 
-bool JsonWalker::parse_error(std::size_t, const std::string& token, const nlohmann::json::exception& reason) {
+bool JsonWalker::parse_error(std::size_t, const std::string&, const nlohmann::json::exception& reason) {
   constexpr int kOutOfRange = 406;  // a number beyond the doubles
   if (reason.id == kOutOfRange)
     return fail(error(ErrorCode::bad_number, "a number beyond the largest double", number_text()));
   std::string message = reason.what();
   if (const std::size_t column = message.find("column "); column != std::string::npos)
     if (const std::size_t colon = message.find(": ", column); colon != std::string::npos) message.erase(0, colon + 2);
+  message.erase(std::min(message.size(), message.find("; last read")));  // everything read so far, at worst
   const std::string_view word = word_here();
+  const bool at_end = position_ == source_.bytes.data() + source_.bytes.size();
   const std::string_view number_begins = "0123456789+-.nNiI";  // nan and inf, too
-  if (!word.empty() && number_begins.find(word.front()) != std::string_view::npos && word != "null")
+  if (!at_end && !word.empty() && number_begins.find(word.front()) != std::string_view::npos)
     return fail(error(ErrorCode::bad_number, "not a number", word));
-  return fail(error(ErrorCode::syntax, message, token));
+  return fail(error(ErrorCode::syntax, message, word));
 }
 
 }  // namespace patchproof

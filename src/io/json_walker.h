@@ -76,7 +76,7 @@ class JsonWalker {
   bool end_object();
   bool start_array(std::size_t);
   bool end_array();
-  bool parse_error(std::size_t, const std::string& token, const nlohmann::json::exception& reason);
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& reason);
 
  private:
   struct Frame {
