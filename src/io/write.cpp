@@ -102,16 +102,6 @@ void patch(Buffer& out, const ModelPatch<T>& patch) {
 
 }  // namespace
 
-const char* to_string(EdgeName edge) {
-  switch (edge) {
-    case EdgeName::u_min: return "u_min";
-    case EdgeName::u_max: return "u_max";
-    case EdgeName::v_min: return "v_min";
-    case EdgeName::v_max: return "v_max";
-  }
-  return "";
-}
-
 template <ExactField T>
 std::string write_model_json(const Model<T>& model) {
   Buffer out;

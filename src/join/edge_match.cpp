@@ -12,16 +12,6 @@
 
 namespace patchproof {
 
-const char* to_string(EdgeName edge) {
-  switch (edge) {
-    case EdgeName::u_min: return "u_min";
-    case EdgeName::u_max: return "u_max";
-    case EdgeName::v_min: return "v_min";
-    case EdgeName::v_max: return "v_max";
-  }
-  return "unknown";
-}
-
 namespace {
 
 namespace bg = boost::geometry;

@@ -21,7 +21,4 @@ namespace patchproof {
 template <ExactField T>
 std::string write_model_json(const Model<T>& model);
 
-// "u_min", "u_max", "v_min", "v_max".
-const char* to_string(EdgeName edge);
-
 }  // namespace patchproof

@@ -131,6 +131,7 @@ bool certainly_zero_free(const std::vector<std::array<Interval, 3>>& bernstein);
 template <ExactRing R>
 std::vector<std::array<Interval, 3>> enclose_vector(const FormVector<R>& f) {
   const int degree = std::max({f[0].degree(), f[1].degree(), f[2].degree()});
+  const std::vector<Interval> binomial = binomials<Interval>(degree);
   std::vector<std::array<Interval, 3>> out(degree + 1);
   std::array<std::vector<ScaledInterval>, 3> scaled;
   long exponent = std::numeric_limits<long>::min();
@@ -142,7 +143,7 @@ std::vector<std::array<Interval, 3>> enclose_vector(const FormVector<R>& f) {
   for (int c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < scaled[c].size(); ++i)
       out[i][c] = scale_by_power_of_two(scaled[c][i].mantissa, scaled[c][i].exponent - exponent) /
-                  Interval(double(binomial(degree, static_cast<int>(i))));
+                  binomial[i];
   return out;
 }
 

@@ -79,6 +79,7 @@ DeviationPiece deviation_piece(const FormVector<R>& numerator, const BinaryForm<
   const std::array<const BinaryForm<R>*, 5> forms{&numerator[0], &numerator[1], &numerator[2], &denominator, &sign};
   int degree = 0;
   for (const BinaryForm<R>* f : forms) degree = std::max(degree, f->degree());
+  const std::vector<Interval> binomial = binomials<Interval>(degree);
   std::array<std::vector<ScaledInterval>, 5> scaled;
   for (int k = 0; k < 5; ++k) {
     if (forms[k]->is_empty()) {
@@ -88,7 +89,7 @@ DeviationPiece deviation_piece(const FormVector<R>& numerator, const BinaryForm<
     const BinaryForm<R> full = forms[k]->elevated(degree - forms[k]->degree());
     for (int i = 0; i <= degree; ++i) {
       ScaledInterval x = detail::enclose_scaled_in(full[i]);
-      x.mantissa = x.mantissa / Interval(double(binomial(degree, i)));
+      x.mantissa = x.mantissa / binomial[i];
       scaled[k].push_back(x);
     }
   }

@@ -53,6 +53,4 @@ template <ExactField T>
 Join<T> whole_edge_join(const std::vector<const BsplinePatch<T, 4>*>& patches, int patch_a, EdgeName edge_a, int patch_b,
                         EdgeName edge_b, bool reversed);
 
-const char* to_string(EdgeName edge);
-
 }  // namespace patchproof

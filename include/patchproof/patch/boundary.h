@@ -20,6 +20,7 @@ namespace patchproof {
 
 // The four edges of a patch. `u_min` is the line u = first parameter of the domain, traversed along growing v; and so on.
 enum class EdgeName { u_min, u_max, v_min, v_max };
+const char* to_string(EdgeName edge);  // "u_min", …
 
 // The line `constant` = value, looked at from the left (parameters below value) or the right of it.
 template <OrderedField K>

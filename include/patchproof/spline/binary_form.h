@@ -18,6 +18,7 @@
 
 #include "patchproof/contract.h"
 #include "patchproof/scalar/concepts.h"
+#include "patchproof/spline/bernstein.h"
 
 namespace patchproof {
 
@@ -68,11 +69,19 @@ class BinaryForm {
   std::vector<R> a_;
 };
 
-// n over k.
-inline int binomial(int n, int k) {
-  long long r = 1;
-  for (int i = 1; i <= k; ++i) r = r * (n - k + i) / i;
-  return static_cast<int>(r);
+// C(n,0), …, C(n,n) in R, for every n: from int where that is exact, else by Pascal's additions.
+template <Ring R>
+std::vector<R> binomials(int n) {
+  constexpr int kLargestInInt = 30;
+  if (n > kLargestInInt) return binomial_row<R>(n);
+  std::vector<R> row;
+  row.reserve(n + 1);
+  long long c = 1;
+  for (int k = 0; k <= n; ++k) {
+    row.push_back(R(static_cast<int>(c)));
+    c = c * (n - k) / (k + 1);
+  }
+  return row;
 }
 
 // Is the polynomial zero? Empty: this scalar cannot tell.
@@ -125,7 +134,9 @@ BinaryForm<R> divide_exactly(const BinaryForm<R>& f, const BinaryForm<R>& g);
 template <Ring R>
 BinaryForm<R> BinaryForm<R>::from_bernstein(std::vector<R> b) {
   const int n = static_cast<int>(b.size()) - 1;
-  for (int i = 1; i < n; ++i) b[i] = R(binomial(n, i)) * b[i];
+  if (n < 2) return BinaryForm(std::move(b));
+  const std::vector<R> c = binomials<R>(n);
+  for (int i = 1; i < n; ++i) b[i] = c[i] * b[i];
   return BinaryForm(std::move(b));
 }
 

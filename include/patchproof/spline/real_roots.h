@@ -81,7 +81,8 @@ std::vector<std::pair<F, F>> isolate_roots(const BinaryForm<F>& f, const F& widt
   const BinaryForm<F> multiple = gcd(g, g.derivative());
   if (multiple.degree() > 0) g = divide_exactly(g, multiple);
   std::vector<F> b = g.coefficients();
-  for (int i = 0; i <= g.degree(); ++i) b[i] = b[i] / F(binomial(g.degree(), i));
+  const std::vector<F> c = binomials<F>(g.degree());
+  for (int i = 0; i <= g.degree(); ++i) b[i] = b[i] / c[i];
   std::vector<std::pair<F, F>> roots;
   detail::isolate(std::move(b), F(0), F(1), width, roots);
   return roots;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a model to a report: find the joins, certify them, judge them against the request, print.
+//
+// ENSURES  (1) write_json prints the document of docs/formats.md ("Report"), schema 1, one line per join, and the same bytes
+//          for the same input and request, whatever the number of jobs (unless a join ran out of its time);
+//          (2) write_table prints the same facts for people, worst join first;
+//          (3) bounds are rounded outward and printed so that they read back as the same doubles.
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "patchproof/io/model.h"
+#include "patchproof/join/certificate.h"
+#include "patchproof/join/edge_match.h"
+
+namespace patchproof {
+
+struct ReportedSide {
+  int patch = 0;
+  std::string edge;               // "u_min", or "u = 1/2" for a line inside the patch
+  double begin = 0, end = 1;      // parameters, in the order in which the join runs through them
+};
+
+struct ReportedJoin {
+  int id = 0;  // 1-based
+  ReportedSide a, b;
+  JoinKind kind = JoinKind::isoparametric;
+  bool reversed = false;
+  PairingKind pairing = PairingKind::identity;
+  int pairing_nodes = 2;
+  std::string pairing_ratio;      // exact r of a rational linear pairing, else ""
+  Certificate certificate;
+  Judgement judgement;
+};
+
+struct Report {
+  std::string file, format, sha256, units;
+  Decimals decimals = Decimals::exact;
+  std::vector<std::string> patch_names, notes;
+  Request request;
+  double match_length = 0, diagonal = 0;
+  std::vector<ReportedJoin> joins;
+  std::vector<EdgeRange> unmatched;
+  std::vector<CollapsedEdge> collapsed;
+
+  // pass, fail or undecided over all joins.
+  Outcome outcome() const;
+};
+
+struct CertifyOptions {
+  Request request;
+  double match_length = 0;  // 0: 1e-6 of the diagonal
+  int jobs = 0;             // 0: one thread per processor
+  std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
+};
+
+// Declared joins of the model are taken as they are; without any, the geometry decides.
+Report certify_model(const ModelFile& file, const CertifyOptions& options = {});
+
+void write_json(std::ostream& out, const Report& report);
+
+struct TableStyle {
+  bool quiet = false;  // only the summary
+  bool color = false;
+};
+void write_table(std::ostream& out, const Report& report, const TableStyle& style = {});
+
+}  // namespace patchproof

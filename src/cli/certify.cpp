@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <sstream>
+
+#include "cli/commands.h"
+#include "patchproof/io/read.h"
+#include "patchproof/io/report.h"
+
+namespace patchproof::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> models;
+  std::optional<std::string> require;
+  std::optional<double> gap, angle;
+  double match = 0, budget = 10;
+  int jobs = 0;
+  Decimals decimals = Decimals::exact;
+  std::string json;
+  bool quiet = false;
+};
+
+// One line on standard error, only when it is a terminal.
+class ProgressBar {
+ public:
+  ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
+  void show(std::size_t done, std::size_t all) {
+    if (!terminal_ || all < 200) return;
+    const int percent = static_cast<int>(100 * done / all);
+    if (percent == last_.exchange(percent)) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::fprintf(stderr, "\r[%-40.*s] %3d %%", percent * 40 / 100, "########################################", percent);
+    if (done == all) std::fprintf(stderr, "\r\x1b[K");
+  }
+
+ private:
+  bool terminal_;
+  std::atomic<int> last_{-1};
+  std::mutex mutex_;
+};
+
+int exit_code_of(Outcome outcome) {
+  return outcome == Outcome::pass ? kProven : outcome == Outcome::fail ? kRefuted : kUndecided;
+}
+
+// fail outranks undecided outranks pass.
+Outcome worse(Outcome a, Outcome b) {
+  if (a == Outcome::fail || b == Outcome::fail) return Outcome::fail;
+  return a == Outcome::undecided || b == Outcome::undecided ? Outcome::undecided : Outcome::pass;
+}
+
+int run(const Options& options) {
+  CertifyOptions certify;
+  if (options.require)
+    certify.request.require = *options.require == "C0"   ? Continuity::c0
+                              : *options.require == "C1" ? Continuity::c1
+                                                         : Continuity::g1;
+  certify.request.gap_tolerance = options.gap;
+  certify.request.angle_tolerance = options.angle;
+  certify.request.seconds_per_join = options.budget;
+  certify.match_length = options.match;
+  certify.jobs = options.jobs;
+  ProgressBar bar;
+  certify.progress = [&](std::size_t done, std::size_t all) { bar.show(done, all); };
+
+  // All files are read before anything is reported: bad input leaves no partial report.
+  std::vector<ModelFile> files;
+  for (const std::string& path : options.models) {
+    Result<ModelFile> file = read_model(path, options.decimals);
+    if (!file) return report_error(file.error());
+    files.push_back(std::move(*file));
+  }
+  Outcome outcome = Outcome::pass;
+  std::ostringstream json, table;
+  if (!options.json.empty() && files.size() > 1) json << "[";
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Report report = certify_model(files[i], certify);
+    outcome = worse(outcome, report.outcome());
+    if (!options.json.empty()) {
+      if (i > 0) json << ",\n";
+      write_json(json, report);
+    }
+    if (options.json != "-") {
+      if (i > 0) table << '\n';
+      write_table(table, report, {options.quiet, isatty(STDOUT_FILENO) != 0});
+    }
+  }
+  if (!options.json.empty()) {
+    if (files.size() > 1) json << "]\n";
+    if (const int failed = write_output(options.json, std::move(json).str())) return failed;
+  }
+  if (options.json != "-")
+    if (const int failed = write_output("-", std::move(table).str())) return failed;
+  return exit_code_of(outcome);
+}
+
+}  // namespace
+
+void add_certify(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("certify", "prove, refute or bound every join of a model");
+  command->add_option("model", options->models, "files to certify")->required()->type_name("MODEL");
+  command->add_option("--require", options->require, "every join must be proven of this class")
+      ->check(CLI::IsMember({"C0", "C1", "G1"}))
+      ->option_text("C0|C1|G1");
+  command->add_option("--gap", options->gap, "largest gap allowed, in the model's units")
+      ->check(CLI::Range(0.0, 1e300))->option_text("LENGTH");
+  command->add_option("--angle", options->angle, "largest normal angle allowed, in degrees")
+      ->check(CLI::Range(0.0, 180.0))->option_text("DEGREES");
+  command->add_option("--match", options->match,
+                      "which edges are looked at: those within this length of each other [1e-6 of the diagonal]")
+      ->check(CLI::Range(0.0, 1e300))->option_text("LENGTH");
+  command->add_option("--json", options->json, "write the report as JSON ('-': to standard output, nothing else)")
+      ->option_text("FILE|-");
+  command->add_option("--jobs", options->jobs, "threads; the report does not depend on it [one per processor]")
+      ->check(CLI::Range(1, 1024))->option_text("N");
+  command->add_option("--budget", options->budget, "time for one join before it ends undecided [10]")
+      ->check(CLI::Range(0.0, 1e6))->option_text("SECONDS");
+  add_decimals(*command, options->decimals);
+  command->add_flag("--quiet", options->quiet, "print the summary only");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace patchproof::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <map>
+
+#include "cli/commands.h"
+
+namespace patchproof::cli {
+
+int report_error(const Error& error) {
+  std::fprintf(stderr, "patchproof: %s\n", error.text().c_str());
+  return kBadInput;
+}
+
+void add_decimals(CLI::App& command, Decimals& decimals) {
+  const std::map<std::string, Decimals> names{{"exact", Decimals::exact}, {"binary64", Decimals::binary64}};
+  command.add_option("--decimals", decimals, "read decimals as exact fractions, or as the nearest doubles")
+      ->transform(CLI::CheckedTransformer(names))
+      ->option_text("exact|binary64 [exact]");
+}
+
+int write_output(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    return written ? 0 : report_error({ErrorCode::cannot_open, "standard output", "cannot be written", std::strerror(errno)});
+  }
+  const std::string temporary = path + ".partial";
+  const auto failed = [&] {
+    const Error error{ErrorCode::cannot_open, path, "cannot be written", std::strerror(errno)};
+    std::remove(temporary.c_str());
+    return report_error(error);
+  };
+  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  if (!file) return failed();
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (std::fclose(file) != 0 || !written) return failed();
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) return failed();
+  return 0;
+}
+
+}  // namespace patchproof::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patchproof/io/report.h"
+
+#include "patchproof/join/certify.h"
+
+namespace patchproof {
+namespace {
+
+template <ExactField T>
+ReportedSide reported_side(const BsplinePatch<T, 4>& patch, int index, const IsoLine<T>& line, const std::vector<T>& nodes) {
+  ReportedSide side{index, "", nearest_double(nodes.front()), nearest_double(nodes.back())};
+  for (const EdgeName edge : {EdgeName::u_min, EdgeName::u_max, EdgeName::v_min, EdgeName::v_max}) {
+    const IsoLine<T> candidate = edge_line(patch, edge);
+    if (candidate.constant == line.constant && candidate.value == line.value && candidate.side == line.side)
+      side.edge = to_string(edge);
+  }
+  if (side.edge.empty())
+    side.edge = std::string(line.constant == Direction::u ? "u" : "v") + " = " + to_text(line.value) +
+                (line.side == Side::left ? "-" : "+");
+  return side;
+}
+
+template <ExactField T>
+void certify_into(Report& report, const Model<T>& model, const CertifyOptions& options) {
+  std::vector<const BsplinePatch<T, 4>*> patches;
+  for (const ModelPatch<T>& patch : model.patches) {
+    patches.push_back(&patch.surface);
+    report.patch_names.push_back(patch.name);
+  }
+  report.units = model.units;
+  EdgeMatch<T> match = match_edges(patches, options.match_length);
+  if (!model.joins.empty()) {
+    // The file says which edges meet; the lines inside patches are looked at all the same.
+    std::erase_if(match.joins, [](const Join<T>& j) { return j.kind != JoinKind::knot_line; });
+    std::vector<Join<T>> joins;
+    for (const DeclaredJoin& d : model.joins)
+      joins.push_back(whole_edge_join(patches, d.patch_a, d.edge_a, d.patch_b, d.edge_b, d.reversed));
+    joins.insert(joins.end(), match.joins.begin(), match.joins.end());
+    match.joins = std::move(joins);
+    match.unmatched.clear();
+    for (std::size_t p = 0; p < patches.size(); ++p)
+      for (const EdgeName edge : {EdgeName::u_min, EdgeName::u_max, EdgeName::v_min, EdgeName::v_max}) {
+        const auto is_edge = [&](int patch, EdgeName name) { return patch == static_cast<int>(p) && name == edge; };
+        const bool used = std::any_of(model.joins.begin(), model.joins.end(), [&](const DeclaredJoin& d) {
+          return is_edge(d.patch_a, d.edge_a) || is_edge(d.patch_b, d.edge_b);
+        });
+        const bool collapsed = std::any_of(match.collapsed.begin(), match.collapsed.end(),
+                                           [&](const CollapsedEdge& c) { return is_edge(c.patch, c.edge); });
+        if (used || collapsed) continue;
+        const KnotVector<T>& along = patches[p]->knots(other(edge_line(*patches[p], edge).constant));
+        match.unmatched.push_back({static_cast<int>(p), edge, nearest_double(along.domain_begin()),
+                                   nearest_double(along.domain_end())});
+      }
+  }
+  report.match_length = match.length;
+  report.diagonal = match.diagonal;
+  report.unmatched = std::move(match.unmatched);
+  report.collapsed = std::move(match.collapsed);
+  std::function<void(std::size_t)> progress;
+  if (options.progress) progress = [&](std::size_t done) { options.progress(done, match.joins.size()); };
+  std::vector<Certificate> certificates = certify_joins(patches, match.joins, options.request, options.jobs, progress);
+  report.joins.reserve(certificates.size());
+  for (std::size_t i = 0; i < certificates.size(); ++i) {
+    const Join<T>& join = match.joins[i];
+    ReportedJoin out;
+    out.id = static_cast<int>(i) + 1;
+    out.kind = join.kind;
+    out.a = reported_side(*patches[join.patch_a], join.patch_a, join.line_a, join.pairing.a);
+    out.b = reported_side(*patches[join.patch_b], join.patch_b, join.line_b, join.pairing.b);
+    out.reversed = join.pairing.reversed();
+    out.pairing = join.pairing.kind;
+    out.pairing_nodes = static_cast<int>(join.pairing.a.size());
+    if (join.pairing.kind == PairingKind::rational_linear) out.pairing_ratio = to_text(join.pairing.ratio);
+    out.certificate = std::move(certificates[i]);
+    out.judgement = judge(out.certificate, options.request);
+    report.joins.push_back(std::move(out));
+  }
+}
+
+}  // namespace
+
+Outcome Report::outcome() const {
+  Outcome worst = Outcome::pass;
+  for (const ReportedJoin& join : joins) {
+    if (join.judgement.outcome == Outcome::fail) return Outcome::fail;
+    if (join.judgement.outcome == Outcome::undecided) worst = Outcome::undecided;
+  }
+  return worst;
+}
+
+Report certify_model(const ModelFile& file, const CertifyOptions& options) {
+  Report report;
+  report.file = file.path;
+  report.format = file.format;
+  report.sha256 = file.sha256;
+  report.decimals = file.decimals;
+  report.notes = file.notes;
+  report.request = options.request;
+  std::visit([&](const auto& model) { certify_into(report, model, options); }, file.model);
+  return report;
+}
+
+}  // namespace patchproof

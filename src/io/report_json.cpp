@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report as JSON: one document, written join by join so that its size is not held in memory.
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "patchproof/io/report.h"
+
+namespace patchproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Infinite bounds cannot be written as JSON numbers: "no upper bound" is null.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json place(const Place& p) { return {{"a", p.a}, {"b", p.b}, {"point", p.point}}; }
+
+Json bound(const EnclosedMaximum& m) {
+  return {{"lower", number(m.lower)}, {"upper", number(m.upper)}, {"at", place(m.at)}, {"tight", m.converged}};
+}
+
+Json side(const ReportedSide& s) { return {{"patch", s.patch}, {"edge", s.edge}, {"range", {s.begin, s.end}}}; }
+
+Json join_json(const ReportedJoin& j) {
+  const Certificate& c = j.certificate;
+  Json exact{{"C0", to_string(c.c0.verdict)}, {"C1", to_string(c.c1.verdict)}, {"C2", to_string(c.c2.verdict)},
+             {"G1", to_string(c.g1.verdict)}, {"ratio", c.ratio ? Json(*c.ratio) : Json(nullptr)}};
+  Json pairing{{"kind", to_string(j.pairing)}, {"nodes", j.pairing_nodes}};
+  if (!j.pairing_ratio.empty()) pairing["ratio"] = j.pairing_ratio;
+  Json degenerate = Json::array();
+  for (const Degeneracy& d : c.degenerate)
+    degenerate.push_back({{"side", std::string(1, d.side)}, {"range", {d.begin, d.end}}, {"what", d.what}});
+  Json witness = Json::object(), reasons = Json::object();
+  for (const auto& [name, cls] : {std::pair<const char*, const ExactClass*>{"C0", &c.c0}, {"C1", &c.c1}, {"C2", &c.c2}, {"G1", &c.g1}}) {
+    if (cls->witness)
+      witness[name] = {{"quantity", cls->witness->quantity}, {"a", cls->witness->a}, {"b", cls->witness->b},
+                       {"values", cls->witness->values}};
+    if (!cls->reason.empty()) reasons[name] = cls->reason;
+  }
+  return {{"id", j.id},
+          {"a", side(j.a)},
+          {"b", side(j.b)},
+          {"kind", to_string(j.kind)},
+          {"reversed", j.reversed},
+          {"exact", exact},
+          {"gap", bound(c.gap)},
+          {"angle_degrees", bound(c.angle)},
+          {"orientation", to_string(c.orientation)},
+          {"degenerate", degenerate},
+          {"rung", c.rung},
+          {"pairing", pairing},
+          {"verdict", to_string(j.judgement.outcome)},
+          {"witness", witness},
+          {"reasons", reasons},
+          {"reason", j.judgement.reason}};
+}
+
+Json request_json(const Report& r) {
+  Json require = nullptr;
+  if (r.request.require)
+    require = *r.request.require == Continuity::c0 ? "C0" : *r.request.require == Continuity::c1 ? "C1" : "G1";
+  const auto optional = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
+  return {{"require", require},
+          {"gap", optional(r.request.gap_tolerance)},
+          {"angle_degrees", optional(r.request.angle_tolerance)},
+          {"match", r.match_length},
+          {"budget_seconds", r.request.seconds_per_join}};
+}
+
+Json summary_json(const Report& r) {
+  int count[3] = {0, 0, 0};
+  double gap = 0, angle = 0;
+  for (const ReportedJoin& j : r.joins) {
+    ++count[static_cast<int>(j.judgement.outcome)];
+    gap = std::max(gap, j.certificate.gap.upper);
+    angle = std::max(angle, j.certificate.angle.upper);
+  }
+  return {{"pass", count[0]}, {"fail", count[1]}, {"undecided", count[2]}, {"worst_gap", number(gap)},
+          {"worst_angle_degrees", number(angle)}};
+}
+
+// nlohmann's dump() of `value`, which must be an object, without the closing brace.
+std::string open_object(const Json& value) {
+  std::string text = value.dump();
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+void write_json(std::ostream& out, const Report& r) {
+  const Json head{{"tool", "patchproof"},
+                  {"version", PATCHPROOF_VERSION},
+                  {"schema", 1},
+                  {"input",
+                   {{"file", r.file},
+                    {"sha256", r.sha256},
+                    {"format", r.format},
+                    {"decimals", r.decimals == Decimals::exact ? "exact" : "binary64"},
+                    {"units", r.units},
+                    {"patches", r.patch_names.size()},
+                    {"joins", r.joins.size()},
+                    {"notes", r.notes}}},
+                  {"request", request_json(r)}};
+  out << open_object(head) << ",\n\"joins\":[";
+  for (std::size_t i = 0; i < r.joins.size(); ++i) out << (i ? ",\n" : "\n") << join_json(r.joins[i]).dump();
+  out << "],\n\"unmatched_edges\":[";
+  for (std::size_t i = 0; i < r.unmatched.size(); ++i) {
+    const EdgeRange& e = r.unmatched[i];
+    out << (i ? ",\n" : "\n")
+        << Json{{"patch", e.patch}, {"edge", to_string(e.edge)}, {"range", {e.begin, e.end}}}.dump();
+  }
+  out << "],\n\"collapsed_edges\":[";
+  for (std::size_t i = 0; i < r.collapsed.size(); ++i) {
+    const CollapsedEdge& e = r.collapsed[i];
+    out << (i ? ",\n" : "\n")
+        << Json{{"patch", e.patch}, {"edge", to_string(e.edge)}, {"exactly", e.exactly}, {"tangent_plane", e.tangent_plane}}
+               .dump();
+  }
+  out << "],\n\"summary\":" << summary_json(r).dump() << ",\n\"verdict\":\"" << to_string(r.outcome()) << "\"}\n";
+}
+
+}  // namespace patchproof

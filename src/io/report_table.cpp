@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report for people: worst join first, then what was counted.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <ostream>
+
+#include "patchproof/io/report.h"
+
+namespace patchproof {
+namespace {
+
+// "C2", "C1", "G1 (ratio 3/2)", "C0 only", "no join": the strongest class that is proven.
+std::string class_text(const Certificate& c) {
+  const auto proven = [](const ExactClass& e) { return e.verdict == Verdict::proven; };
+  if (!proven(c.c0)) return c.c0.verdict == Verdict::refuted ? "gap" : "undecided";
+  const std::string tangent = proven(c.g1)                               ? ""
+                              : c.g1.verdict == Verdict::undecided       ? ", G1 undecided"
+                              : c.orientation == Orientation::cusp       ? ", cusp"
+                              : c.orientation == Orientation::mixed      ? ", sides change"
+                                                                         : ", not G1";
+  if (proven(c.c2)) return "C2" + tangent;
+  if (proven(c.c1)) return "C1" + tangent;
+  if (proven(c.g1)) return "G1";
+  return c.orientation == Orientation::cusp ? "C0, cusp" : c.g1.verdict == Verdict::undecided ? "C0, G1 undecided" : "C0";
+}
+
+// Five digits, rounded outward; the JSON has all of them.
+std::string bound_text(const EnclosedMaximum& m) {
+  if (m.lower == m.upper) return fmt::format("{}", m.lower);
+  const auto outward = [](double x, bool up) {
+    const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(x))) - 4);
+    return (up ? std::ceil(x / unit) : std::floor(x / unit)) * unit;
+  };
+  return fmt::format("[{:.5g}, {:.5g}]", m.lower == 0 ? 0.0 : outward(m.lower, false),
+                     std::isfinite(m.upper) ? outward(m.upper, true) : m.upper);
+}
+
+std::string side_text(const Report& r, const ReportedSide& s) {
+  const std::string& name = r.patch_names[s.patch];
+  return name.empty() ? fmt::format("{}.{}", s.patch, s.edge) : fmt::format("{}.{}", name, s.edge);
+}
+
+std::string place_text(const Certificate& c) {
+  const Place& p = c.angle.upper > 0 ? c.angle.at : c.gap.at;
+  if (c.angle.upper == 0 && c.gap.upper == 0) return "";
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.point[0], p.point[1], p.point[2]);
+}
+
+// Failing before undecided before passing; then the larger gap class, angle and gap.
+bool worse(const ReportedJoin& x, const ReportedJoin& y) {
+  const auto rank = [](const ReportedJoin& j) {
+    return j.judgement.outcome == Outcome::fail ? 2 : j.judgement.outcome == Outcome::undecided ? 1 : 0;
+  };
+  if (rank(x) != rank(y)) return rank(x) > rank(y);
+  const Certificate &a = x.certificate, &b = y.certificate;
+  if (a.angle.upper != b.angle.upper) return a.angle.upper > b.angle.upper;
+  if (a.gap.upper != b.gap.upper) return a.gap.upper > b.gap.upper;
+  return x.id < y.id;
+}
+
+void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
+  const bool asked = r.request.require || r.request.gap_tolerance || r.request.angle_tolerance;
+  std::vector<std::array<std::string, 7>> rows{{"join", "a", "b", "exact class", "largest gap", "largest angle/deg", "where"}};
+  std::vector<const ReportedJoin*> order;
+  for (const ReportedJoin& j : r.joins) order.push_back(&j);
+  std::sort(order.begin(), order.end(), [](const auto* x, const auto* y) { return worse(*x, *y); });
+  for (const ReportedJoin* j : order) {
+    const Certificate& c = j->certificate;
+    std::string cls = class_text(c);
+    if (c.ratio && *c.ratio != "1" && c.ratio->size() <= 12) cls += " ×" + *c.ratio;
+    rows.push_back({std::to_string(j->id), side_text(r, j->a), side_text(r, j->b) + (j->reversed ? " ↔" : ""), cls,
+                    bound_text(c.gap), bound_text(c.angle), place_text(c)});
+  }
+  const auto width = [](const std::string& s) {  // characters, not bytes
+    return std::count_if(s.begin(), s.end(), [](char ch) { return (ch & 0xC0) != 0x80; });
+  };
+  std::array<long, 7> widths{};
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max<long>(widths[k], width(row[k]));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::string line;
+    for (std::size_t k = 0; k < rows[i].size(); ++k)
+      line += rows[i][k] + std::string(k + 1 < rows[i].size() ? widths[k] - width(rows[i][k]) + 2 : 0, ' ');
+    const char* mark = "  ";
+    if (i > 0 && asked) {
+      const Outcome o = order[i - 1]->judgement.outcome;
+      mark = o == Outcome::fail ? "✗ " : o == Outcome::undecided ? "? " : "✓ ";
+    }
+    line = mark + line;
+    line.erase(line.find_last_not_of(' ') + 1);
+    const bool fail = i > 0 && order[i - 1]->judgement.outcome == Outcome::fail;
+    out << (style.color && fail ? "\x1b[31m" : style.color && i == 0 ? "\x1b[1m" : "") << line
+        << (style.color && (fail || i == 0) ? "\x1b[0m" : "") << '\n';
+  }
+}
+
+}  // namespace
+
+void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
+  out << fmt::format("{}: {}, {} patches, decimals {}, sha256 {}…\n", r.file, r.format, r.patch_names.size(),
+                     r.decimals == Decimals::exact ? "exact" : "binary64", r.sha256.substr(0, 16));
+  for (const std::string& note : r.notes) out << "note: " << note << '\n';
+  if (!style.quiet && !r.joins.empty()) {
+    out << '\n';
+    write_rows(out, r, style);
+    out << '\n';
+  }
+  std::map<std::string, int> classes, kinds;
+  EnclosedMaximum gap, angle;
+  int undecided = 0;
+  for (const ReportedJoin& j : r.joins) {
+    const Certificate& c = j.certificate;
+    ++classes[class_text(c)];
+    ++kinds[to_string(j.kind)];
+    gap.lower = std::max(gap.lower, c.gap.lower), gap.upper = std::max(gap.upper, c.gap.upper);
+    angle.lower = std::max(angle.lower, c.angle.lower), angle.upper = std::max(angle.upper, c.angle.upper);
+    undecided += j.judgement.outcome == Outcome::undecided;
+  }
+  const auto listed = [](const std::map<std::string, int>& counts) {
+    std::string text;
+    for (const auto& [name, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+    return text;
+  };
+  out << fmt::format("{} joins{}{}\n", r.joins.size(), r.joins.empty() ? "" : ": ", listed(kinds));
+  if (!r.joins.empty()) {
+    out << fmt::format("proven   {}\n", listed(classes));
+    out << fmt::format("gap      largest {}{}\n", bound_text(gap), r.units.empty() ? "" : " " + r.units);
+    out << fmt::format("angle    largest {} degrees\n", bound_text(angle));
+  }
+  if (!r.collapsed.empty()) {
+    const auto planes = std::count_if(r.collapsed.begin(), r.collapsed.end(), [](const auto& c) { return c.tangent_plane; });
+    out << fmt::format("poles    {} collapsed edges, {} with a proven tangent plane\n", r.collapsed.size(), planes);
+  }
+  if (!r.unmatched.empty()) {
+    out << fmt::format("free     {} edges without a partner within {:.3g}:", r.unmatched.size(), r.match_length);
+    constexpr std::size_t kShown = 8;
+    for (std::size_t i = 0; i < std::min(kShown, r.unmatched.size()); ++i)
+      out << ' ' << side_text(r, {r.unmatched[i].patch, to_string(r.unmatched[i].edge), 0, 1});
+    out << (r.unmatched.size() > kShown ? " …\n" : "\n");
+  }
+  if (r.request.require || r.request.gap_tolerance || r.request.angle_tolerance) {
+    int pass = 0, fail = 0;
+    for (const ReportedJoin& j : r.joins) {
+      pass += j.judgement.outcome == Outcome::pass;
+      fail += j.judgement.outcome == Outcome::fail;
+    }
+    out << fmt::format("verdict  {}: {} pass, {} fail, {} undecided\n", to_string(r.outcome()), pass, fail, undecided);
+  }
+}
+
+}  // namespace patchproof
