@@ -16,8 +16,8 @@ template <class T>
 class ClearedNet : public ScalarTest<T> {};
 TYPED_TEST_SUITE(ClearedNet, AllScalars, ScalarNames);
 
-const std::vector<Rational> kParameters = {0, 1, fraction(1, 2), fraction(1, 3), fraction(-5, 7), fraction(22, 7), 1000000,
-                                           fraction(123456789, 1000000007)};
+const std::vector<Rational> kParameters = {
+    0, 1, fraction(1, 2), fraction(1, 3), fraction(-5, 7), fraction(22, 7), 1000000, fraction(123456789, 1000000007)};
 
 TEST(Cleared, Law1_least_common_denominator) {
   const std::vector<Rational> values = {fraction(1, 6), fraction(-3, 4), Rational(0), Rational(5)};
@@ -79,9 +79,8 @@ TYPED_TEST(ClearedNet, Law2_in_every_scalar) {
   for (int degree = 0; degree <= 6; ++degree) {
     const auto b = random.points<3>(degree + 1);
     const Rational s = random.unit(), t = random.unit();
-    check<TypeParam>(homogeneous_de_casteljau(b, s, t), [&]<class S>() {
-      return homogeneous_de_casteljau(make_points<S>(b), make<S>(s), make<S>(t));
-    });
+    check<TypeParam>(homogeneous_de_casteljau(b, s, t),
+                     [&]<class S>() { return homogeneous_de_casteljau(make_points<S>(b), make<S>(s), make<S>(t)); });
   }
 }
 

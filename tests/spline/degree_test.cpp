@@ -95,22 +95,35 @@ TEST(Degree, Law4_reduction_of_a_full_degree_is_refused) {
 }
 
 TEST(Degree, Law4_a_knot_vanishes_with_its_break) {
-  // A parabola on cubic knots with a simple inner knot: of degree 2 and twice differentiable there, so no break is left.
+  // A parabola on cubic knots with a simple inner knot: twice differentiable there, so no break is left in degree 2.
   const PlaneCurve parabola = PlaneCurve::bezier({{{0, 0}}, {{1, 0}}, {{2, 4}}});
   const PlaneCurve cubic = insert_knot(elevate_degree(parabola), Rational(Rational(1) / Rational(3)));
   const auto back = reduce_degree(cubic);
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ(back->knots(), parabola.knots());
   EXPECT_EQ(back->points(), parabola.points());
-  // The same between unclamped knots: the ends of the domain stay, whatever their multiplicity.
-  const auto uniform = KnotVector<Rational>::make(3, {-3, -2, -1, 0, 1, 2, 3, 4}).value();
-  std::vector<Vec<Rational, 2>> line;
-  for (int i = 0; i < 4; ++i) line.push_back({{Rational(i), Rational(5 - 2 * i)}});
-  const PlaneCurve straight(uniform, line);
-  const auto least = reduce_degree(straight, 2);
-  ASSERT_TRUE(least.has_value());
-  EXPECT_EQ(least->degree(), 1);
-  expect_same_curve(*least, straight);
+  // The same between unclamped knots: the ends of the domain stay, and as much of their multiplicity as is left. In
+  // all but the first the domain begins or ends with a point that has no influence.
+  for (const std::vector<Rational>& unclamped : std::vector<std::vector<Rational>>{{-3, -2, -1, 0, 1, 2, 3, 4},
+                                                                                   {-3, -2, -1, 0, 0, 1, 2, 3, 4},
+                                                                                   {-3, -2, -1, 0, 1, 1, 2, 3, 4},
+                                                                                   {-1, -1, -1, 0, 0, 1, 2, 3, 4},
+                                                                                   {-3, -2, -1, 0, 1, 1, 2, 2, 2}}) {
+    const auto knots = KnotVector<Rational>::make(3, unclamped).value();
+    std::vector<Vec<Rational, 2>> line;  // C(t) = (t, 5 − 2t), whose points are averages of knots
+    for (int i = 0; i < knots.control_count(); ++i) {
+      const Rational mean = (knots[i + 1] + knots[i + 2] + knots[i + 3]) / Rational(3);
+      line.push_back({{mean, Rational(5 - 2 * mean)}});
+    }
+    const PlaneCurve straight(knots, line);
+    for (int times = 1; times <= 2; ++times) {
+      const auto lower = reduce_degree(straight, times);
+      ASSERT_TRUE(lower.has_value());
+      EXPECT_EQ(lower->degree(), 3 - times);
+      expect_same_curve(*lower, straight);
+    }
+    EXPECT_FALSE(reduce_degree(straight, 3));
+  }
 }
 
 TEST(Degree, Contracts) {

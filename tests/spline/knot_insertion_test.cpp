@@ -30,8 +30,8 @@ TEST(KnotInsertion, Law1_the_curve_is_unchanged) {
 TEST(KnotInsertion, Law1_with_knots_and_points_in_a_quadratic_field) {
   const Quadratic root(Rational(0), Rational(1), 2), one(1);
   const BsplineCurve<Quadratic, 1> curve(
-      KnotVector<Quadratic>::make(2, {Quadratic(0), Quadratic(0), Quadratic(0), one, root, Quadratic(2), Quadratic(2),
-                                      Quadratic(2)})
+      KnotVector<Quadratic>::make(
+          2, {Quadratic(0), Quadratic(0), Quadratic(0), one, root, Quadratic(2), Quadratic(2), Quadratic(2)})
           .value(),
       {{{one}}, {{root}}, {{Quadratic(3) - root}}, {{Quadratic(0)}}, {{root * root + root}}});
   const BsplineCurve<Quadratic, 1> finer = insert_knot(insert_knot(curve, root), Quadratic(root / Quadratic(2)), 2);
@@ -160,7 +160,8 @@ TEST(KnotInsertion, Law7_no_knot_is_left_to_remove) {
   }
   // A parabola needs no inner knots.
   const PlaneCurve parabola = PlaneCurve::bezier({{{0, 0}}, {{1, 0}}, {{2, 4}}});
-  const PlaneCurve finer = insert_knot(insert_knot(parabola, Rational(Rational(1) / Rational(3)), 3), Rational(Rational(1) / Rational(2)));
+  const PlaneCurve finer =
+      insert_knot(insert_knot(parabola, Rational(Rational(1) / Rational(3)), 3), Rational(Rational(1) / Rational(2)));
   EXPECT_EQ(remove_redundant_knots(finer).points(), parabola.points());
 }
 

@@ -56,7 +56,8 @@ TEST(Product, Law1_pieces_are_products_of_pieces) {
 TYPED_TEST(Product, Law1_in_every_scalar) {
   RandomRationals random;
   const Function f(knots_of(2, {0, 0, 0, 1, 3, 3, 4, 4, 4}), random.points<1>(6));
-  for (const auto& knots : {knots_of(3, {0, 0, 0, 0, 1, 2, 2, 4, 4, 4, 4}), knots_of(2, {-1, 0, 0, 2, 3, 3, 3, 4, 6, 6})}) {
+  for (const auto& knots :
+       {knots_of(3, {0, 0, 0, 0, 1, 2, 2, 4, 4, 4, 4}), knots_of(2, {-1, 0, 0, 2, 3, 3, 3, 4, 6, 6})}) {
     const PlaneCurve curve(knots, random.points<2>(knots.control_count()));
     check<TypeParam>(product(f, curve).points(),
                      [&]<class S>() { return product(make_curve<S>(f), make_curve<S>(curve)).points(); });

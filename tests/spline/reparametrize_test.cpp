@@ -88,7 +88,8 @@ bool within_reach(const PlaneCurve& curve, const Rational& r) {
 TEST(Reparametrize, Law3_moebius_keeps_the_shape) {
   RandomRationals random;
   for (const auto& [name, curve] : awkward_curves(random))
-    for (const Rational& r : {Rational(Rational(2) / Rational(3)), Rational(1), Rational(Rational(5) / Rational(4)), Rational(3)}) {
+    for (const Rational& r :
+         {Rational(Rational(2) / Rational(3)), Rational(1), Rational(Rational(5) / Rational(4)), Rational(3)}) {
       SCOPED_TRACE(name);
       // Clamped first where an outer knot would be thrown beyond the pole.
       const bool in_reach = within_reach(curve, r);

@@ -94,9 +94,11 @@ void expect_same_curve(const BsplineCurve<T, N, K>& a, const BsplineCurve<T, N, 
       << "the domains differ";
   const std::vector<K> breaks = common_breaks(a.knots(), b.knots());
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const int in_a = span_over(a.knots(), breaks[i], breaks[i + 1]), in_b = span_over(b.knots(), breaks[i], breaks[i + 1]);
+    const int in_a = span_over(a.knots(), breaks[i], breaks[i + 1]),
+              in_b = span_over(b.knots(), breaks[i], breaks[i + 1]);
     for (const K& t : enough_parameters(breaks[i], breaks[i + 1], std::max(a.degree(), b.degree())))
-      EXPECT_TRUE(evaluate_in_span<T>(a, in_a, t) == evaluate_in_span<T>(b, in_b, t)) << "the curves differ on span " << i;
+      EXPECT_TRUE(evaluate_in_span<T>(a, in_a, t) == evaluate_in_span<T>(b, in_b, t))
+          << "the curves differ on span " << i;
   }
 }
 

@@ -7,12 +7,13 @@
 //
 // ENSURES   (1) extract_bezier: piece j is C on its span, identically; the pieces follow each other without gaps;
 //           (2) join_pieces(extract_bezier(c), c.knots()) has the control points of c, where they have influence;
-//           (3) restrict(c, a, b) is C on [a, b] with clamped knots; split(c, t) are the two sides of t, and the
-//           left one ends in the left limit; (4) clamp(c) is C on the same domain, each end a knot of multiplicity exactly
-//           p + 1; (5) a periodic curve closes with all its derivatives up to degree − multiplicity of the first knot,
-//           and starting the period at another knot turns its pieces round, nothing else.
-//           Not guaranteed: control points without influence get an arbitrary finite value from join_pieces.
-// SCALARS   T: Ring (join_pieces too, when the knots are exact). K: OrderedField.
+//           (3) restrict(c, a, b) is C on [a, b] with clamped knots; split(c, t) are the two sides of t, and the left
+//               one ends in the left limit;
+//           (4) clamp(c) is C on the same domain, each end a knot of multiplicity exactly p + 1;
+//           (5) a periodic curve closes with all its derivatives up to degree − multiplicity of the first knot, and
+//               starting the period at another knot turns its pieces round, nothing else.
+//           Not guaranteed: what join_pieces puts into control points without influence.
+// SCALARS   T: Ring (Field when the knots are not exact). K: OrderedField.
 // COST      O(p²) points per span.
 // SOURCE    L. Ramshaw, Blossoms are polar forms, CAGD 6 (1989) 323–358.
 // NEIGHBOURS knot_insertion.h (does the work), bernstein.h (what to do with a piece).
@@ -40,9 +41,9 @@ struct BezierPiece {
 template <Ring T, std::size_t N, OrderedField K>
 std::vector<BezierPiece<T, N, K>> extract_bezier(const BsplineCurve<T, N, K>& curve);
 
-// The curve on the given knots that consists of these pieces. REQUIRES pieces in order, of the degree of `knots`; each break
-// of `knots` is an end of a piece; the pieces join as smoothly as the multiplicities say, and are one polynomial where they
-// share a span. Nothing checks the smoothness: without it the result is another curve.
+// The curve on the given knots that consists of these pieces. REQUIRES pieces in order, of the degree of `knots`; each
+// break of `knots` is an end of a piece; the pieces join as smoothly as the multiplicities say, and are one polynomial
+// where they share a span. Nothing checks the smoothness: without it the result is another curve.
 template <Ring T, std::size_t N, OrderedField K>
 BsplineCurve<T, N, K> join_pieces(const std::vector<BezierPiece<T, N, K>>& pieces, const KnotVector<K>& knots);
 
@@ -62,8 +63,8 @@ std::pair<BsplineCurve<T, N, K>, BsplineCurve<T, N, K>> split(const BsplineCurve
 template <Ring T, std::size_t N, OrderedField K>
 BsplineCurve<T, N, K> clamp(const BsplineCurve<T, N, K>& curve);
 
-// The knots of a closed spline from those of one period, first and last standing for the same place: t_{i+m} = t_i + period
-// for m = period_knots.size() − 1; the domain is one period.
+// The knots of a closed spline from the m + 1 knots of one period, first and last standing for the same place:
+// t_{i+m} = t_i + period. The domain is one period.
 // ERRORS   wrong_count: fewer than 2 knots.  bad_degree, decreasing_knots, empty_domain as for KnotVector::make.
 template <OrderedField K>
 Result<KnotVector<K>> periodic_knots(int degree, const std::vector<K>& period_knots);
@@ -93,14 +94,14 @@ std::vector<BezierPiece<T, N, K>> extract_bezier(const BsplineCurve<T, N, K>& cu
 
 namespace detail {
 
-// The non-empty span of the domain nearest to the middle of the support of N_i (the blossom is least extrapolated there);
-// the middle itself when the support has none, that is when the point has no influence.
+// The non-empty span of the domain nearest to the middle of the support of N_i: there the blossom is least
+// extrapolated. It lies in the support whenever that holds such a span; otherwise the point has no influence.
 template <OrderedField K>
 int middle_span(const KnotVector<K>& knots, int i) {
   const int p = knots.degree(), middle = i + p / 2;
   for (int reach = 0; reach <= p; ++reach)
     for (const int k : {middle + reach, middle - reach})
-      if (i <= k && k <= i + p && p <= k && k < knots.control_count() && knots[k] < knots[k + 1]) return k;
+      if (p <= k && k < knots.control_count() && knots[k] < knots[k + 1]) return k;
   return middle;
 }
 
@@ -199,8 +200,9 @@ Result<BsplineCurve<T, N, K>> make_periodic(int degree, const std::vector<K>& pe
   Result<KnotVector<K>> knots = periodic_knots(degree, period_knots);
   if (!knots) return knots.error();
   if (points.size() + 1 != period_knots.size())
-    return Error{ErrorCode::wrong_count, "", "the period needs " + std::to_string(period_knots.size() - 1) +
-                 " control points", std::to_string(points.size())};
+    return Error{ErrorCode::wrong_count, "",
+                 "the period needs " + std::to_string(period_knots.size() - 1) + " control points",
+                 std::to_string(points.size())};
   std::vector<Vec<T, N>> repeated;
   for (int i = 0; i < knots->control_count(); ++i) repeated.push_back(points[i % points.size()]);
   return BsplineCurve<T, N, K>::make(std::move(*knots), std::move(repeated));

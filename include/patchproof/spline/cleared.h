@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rational data on one common denominator, so that a formula runs in integers: exact like Rational, and several times faster.
+// Rational data on one common denominator, so that a formula runs in integers: exact like Rational, and much faster.
 //
 //   values_i = integers_i / scale,  scale the least positive integer for which all integers_i are whole
 //
@@ -8,11 +8,11 @@
 // nothing is divided, and P(t/(s + t)) = P(s, t)/(s + t)^n. The same template runs on Integer and on Rational.
 //
 // ENSURES   (1) restore(clear_denominators(x)) == x, the scale is positive and the least possible;
-//           (2) homogeneous_de_casteljau(b, s, t) is the sum above; with s + t = 1 it is de_casteljau(b, t) of bernstein.h;
+//           (2) homogeneous_de_casteljau(b, s, t) is the sum above; for s + t = 1 it is de_casteljau(b, t);
 //           (3) evaluate(cleared, t) equals de_casteljau on the Rational points, for every rational t.
 // SCALARS   homogeneous_de_casteljau: any Ring. The rest: Rational in, Integer inside, Rational out.
-// COST      clearing: one pass of least common multiples. Evaluation: O(n²) products of integers whose length grows by that
-//           of the parameter in each of the n rounds.
+// COST      clearing: one pass of least common multiples. Evaluation: O(n²) products of integers, which grow by the
+//           length of the parameter in each of the n rounds.
 // NEIGHBOURS binary_form.h (products of integer polynomials), bernstein.h.
 #pragma once
 

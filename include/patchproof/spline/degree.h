@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Degree elevation and reduction of B-spline curves: the same curve as a spline of a higher or a lower degree.
 //
-//   Each polynomial piece is raised in Bézier form; a knot of multiplicity m becomes one of multiplicity m + times, so the
-//   continuity p − m stays.
+//   Each polynomial piece is raised in Bézier form; a knot of multiplicity m becomes one of multiplicity m + times, so
+//   the continuity p − m stays.
 //
-// ENSURES   (1) elevation leaves every polynomial piece unchanged and adds `times` to the degree;  (2) every knot of the
-//           domain has `times` more copies, and the knots before and after the domain are as many as the degree needs;
-//           (3) reduction undoes elevation: the same knots and points for a clamped curve without points of no influence,
-//           the same pieces for every curve;  (4) reduction answers nothing exactly when some piece has a higher degree
-//           than asked for, or the degree would be negative. A knot then vanishes where the lower degree has no room for
-//           a break.
+// ENSURES   (1) elevation leaves every polynomial piece unchanged and adds `times` to the degree;
+//           (2) every knot of the domain has `times` more copies, and the knots before and after the domain are as many
+//               as the degree needs;
+//           (3) reduction undoes elevation: the same knots and points for a clamped curve whose points all have
+//               influence, the same pieces for every curve;
+//           (4) reduction answers nothing exactly when some piece has a higher degree than asked for, or the degree
+//               would be negative. A knot vanishes where the lower degree has no room for a break.
 //           Not guaranteed: what points without influence hold.
 // SCALARS   elevation: T Field, K OrderedField. Reduction: T and K exact fields.
 // COST      O(q²) points per control point, q the higher degree.
@@ -36,8 +37,8 @@ BsplineCurve<T, N, K> elevate_degree(const BsplineCurve<T, N, K>& curve, int tim
 template <ExactField T, std::size_t N, ExactField K>
 std::optional<BsplineCurve<T, N, K>> reduce_degree(const BsplineCurve<T, N, K>& curve, int times = 1);
 
-// The knots of a spline of degree p + change with the same continuity at every knot: each knot of the domain has `change`
-// more copies (an inner one may vanish, an end stays). REQUIRES p + change >= 0.
+// The knots of a spline of degree p + change with the same continuity at every knot: each knot of the domain has
+// `change` more copies (an inner one may vanish, an end stays). REQUIRES p + change >= 0.
 template <OrderedField K>
 KnotVector<K> change_degree(const KnotVector<K>& knots, int change);
 
@@ -57,8 +58,8 @@ std::vector<K> change_multiplicities(const std::vector<K>& knots, int change) {
   return out;
 }
 
-// The knots from an end of the domain outwards, for a spline of degree q. `copies`: of the end now; `idle`: the number of
-// points beyond the last one with influence; `outside`: the knots further out.
+// The knots from an end of the domain outwards, for a spline of degree q. `copies`: of the end now; `idle`: the number
+// of points beyond the last one with influence; `outside`: the knots further out.
 template <OrderedField K>
 std::vector<K> change_end(const K& end, int copies, int idle, const std::vector<K>& outside, int change, int q) {
   copies = std::max(1, copies + change);

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Knot insertion and removal: the same curve on more knots, or on fewer.
 //
-//   C(t) = Σ d_i N_{i,p}(t),  t_k the last knot ≤ t.  One new knot t gives d'_i = d_i for i ≤ k − p,  d_{i−1} for i > k, and
-//   between them  d'_i = (1 − a_i) d_{i−1} + a_i d_i,   a_i = (t − t_i)/(t_{i+p} − t_i).
+//   C(t) = Σ d_i N_{i,p}(t),  t_k the last knot ≤ t.  A new knot t gives
+//     d'_i = d_i for i ≤ k − p,   d'_i = d_{i−1} for i > k,   and between them
+//     d'_i = (1 − a_i) d_{i−1} + a_i d_i,   a_i = (t − t_i)/(t_{i+p} − t_i).
 //   Removal solves these equations for the d_i; there is one more equation than unknowns.
 //
 // REQUIRES  t in the domain. Any multiplicity is legal, and knots may be unclamped.
-// ENSURES   (1) the curve is unchanged: every polynomial piece is the same;  (2) the multiplicity of t grows by `times`;
-//           (3) inserting t then s equals inserting s then t;  (4) refine(c, finer) has the knots `finer`;
-//           (5) removing an inserted knot gives back the points;  (6) removal answers nothing when the curve is not smooth
-//           enough at t, when t is no knot, and when the domain would change;  (7) after remove_redundant_knots no knot of
-//           the domain can be removed.
-//           Not guaranteed: a control point of a knot of multiplicity above p + 1 has no influence; removal drops it
-//           whatever it holds. At the ends of an unclamped curve, removal also asks that the points outside agree.
+// ENSURES   (1) the curve is unchanged: every polynomial piece is the same;
+//           (2) the multiplicity of t grows by `times`;
+//           (3) inserting t then s equals inserting s then t;
+//           (4) refine(c, finer) has the knots `finer`;
+//           (5) removing an inserted knot gives back the curve, and its points when each of them has influence;
+//           (6) removal answers nothing when the curve is not smooth enough at t, when t is no knot, and when the
+//               domain would change;
+//           (7) after remove_redundant_knots no knot of the domain can be removed.
+//           Not guaranteed: among points without influence (a knot of multiplicity above p + 1 has some) removal drops
+//           any one. At the ends of an unclamped curve it also asks that the points outside agree.
 // SCALARS   insertion: T Ring, K OrderedField; all combinations are convex. Removal: T and K exact fields.
 // COST      insertion: O(p) new points per knot and one pass over the rest.
 // SOURCE    W. Boehm, Inserting new knots into B-spline curves, CAD 12 (1980) 199–201.
@@ -38,8 +42,8 @@ BsplineCurve<T, N, K> insert_knot(const BsplineCurve<T, N, K>& curve, const K& t
 template <Ring T, std::size_t N, OrderedField K>
 BsplineCurve<T, N, K> raise_multiplicity(const BsplineCurve<T, N, K>& curve, const K& t, int multiplicity);
 
-// The same curve on finer knots. REQUIRES the same degree and domain; every knot of the curve stands in `finer` at least
-// as often; knots outside the domain are the same.
+// The same curve on finer knots. REQUIRES the same degree and domain; every knot of the curve stands in `finer` at
+// least as often; knots outside the domain are the same.
 template <Ring T, std::size_t N, OrderedField K>
 BsplineCurve<T, N, K> refine(const BsplineCurve<T, N, K>& curve, const KnotVector<K>& finer);
 
@@ -64,15 +68,17 @@ struct CurveUnderRefinement {
   std::vector<Vec<T, N>> points;
 
   explicit CurveUnderRefinement(const BsplineCurve<T, N, K>& curve)
-      : degree(curve.degree()), domain_end(curve.knots().domain_end()), knots(curve.knots().knots()),
+      : degree(curve.degree()),
+        domain_end(curve.knots().domain_end()),
+        knots(curve.knots().knots()),
         points(curve.points()) {}
 
   void insert(const K& t, int times) {
     const int p = degree;
     // At the end of the domain there is no curve to the right to continue: take the last knot < t there.
     const bool at_end = t == domain_end;
-    const auto above = at_end ? std::lower_bound(knots.begin(), knots.end(), t)
-                              : std::upper_bound(knots.begin(), knots.end(), t);
+    const auto above =
+        at_end ? std::lower_bound(knots.begin(), knots.end(), t) : std::upper_bound(knots.begin(), knots.end(), t);
     int k = static_cast<int>(above - knots.begin()) - 1;
     for (; times > 0; --times) {
       std::vector<Vec<T, N>> mixed;
@@ -138,18 +144,17 @@ std::optional<BsplineCurve<T, N, K>> remove_knot(const BsplineCurve<T, N, K>& cu
   fewer.erase(fewer.begin() + first);
   if (fewer[p] != old_knots.domain_begin() || fewer[n] != old_knots.domain_end()) return std::nullopt;
   const KnotVector<K> knots = KnotVector<K>::make_unchecked(p, std::move(fewer));
-  const bool at_end = t == knots.domain_end();
 
-  if (s > p + 1) {  // the point whose basis function has the support [t, t]
+  if (s > p + 1) {  // a point whose basis function has the support [t, t]
     std::vector<Vec<T, N>> points = curve.points();
-    points.erase(points.begin() + (at_end ? first : first + s - p - 2));
+    points.erase(points.begin() + first);
     return BsplineCurve<T, N, K>(knots, std::move(points));
   }
 
-  // Solve Boehm's equations from the left as long as a_i != 0, take the other points from the right, then ask whether the
-  // one equation left over holds.
+  // Solve Boehm's equations from the left as long as a_i != 0, take the other points from the right, then ask whether
+  // the one equation left over holds.
   const std::vector<Vec<T, N>>& old = curve.points();
-  const int k = knots.find_span(t, at_end ? Side::left : Side::right);
+  const int k = knots.find_span(t, t == knots.domain_end() ? Side::left : Side::right);
   std::vector<Vec<T, N>> points(old.begin(), old.end() - 1);
   for (int i = k - p + 1; i < n; ++i) {
     if (i >= k || knots[i + 1] == t) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The product of two B-splines: a scalar function times a curve, as one B-spline of the sum of the degrees.
 //
-//   Where f has degree p and a knot of multiplicity m, and C degree q and a knot of multiplicity n, f·C is continuous of
-//   order min(p − m, q − n), so its knot needs multiplicity max(m + q, n + p), at most p + q + 1.
+//   Where f has degree p and a knot of multiplicity m, and C degree q and a knot of multiplicity n, f·C is continuous
+//   of order min(p − m, q − n), so its knot needs multiplicity max(m + q, n + p), at most p + q + 1.
 //
 // REQUIRES  the same domain.
-// ENSURES   (1) every polynomial piece of the result is the product of the pieces of f and C;  (2) its degree is p + q and
-//           its knots are those above, clamped;  (3) f = 1 (of degree 0) gives C again;  (4) products are bilinear, and
-//           f·(g·C) and (f·g)·C have the same pieces.
+// ENSURES   (1) every polynomial piece of the result is the product of the pieces of f and C;
+//           (2) its degree is p + q and its knots are those above, clamped;
+//           (3) f = 1 (of degree 0) gives C again;
+//           (4) products are bilinear, and f·(g·C) and (f·g)·C have the same pieces.
 // SCALARS   T: Field, K: OrderedField.
 // COST      O((p + q)²) points per control point.
-// SOURCE    K. Mørken, Some identities for products and degree raising of splines, Constr. Approx. 7 (1991) 195–208 (the
-//           knots; ours goes by pieces).
+// SOURCE    K. Mørken, Some identities for products and degree raising of splines, Constr. Approx. 7 (1991) 195–208
+//           (the knots; ours goes by pieces).
 // NEIGHBOURS bernstein.h (product of pieces), degree.h (f = 1 of degree > 0).
 #pragma once
 

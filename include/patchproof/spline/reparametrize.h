@@ -4,19 +4,22 @@
 //   reverse       C'(t) = C(a + b − t) on the domain [a, b]
 //   map_domain    C'(c + (d − c)(t − a)/(b − a)) = C(t)
 //   moebius       C'(s) = w(s)^p C(φ(s)),  φ(s) = r s/w(s),  w(s) = 1 − s + r s          on [0, 1]
-//                 control points d'_i = w(s_{i+1})⋯w(s_{i+p}) d_i on the knots s_j = φ^{-1}(t_j); a Bézier curve gets r^i b_i
+//                 points d'_i = w(s_{i+1})⋯w(s_{i+p}) d_i on the knots s_j = φ^{-1}(t_j); for a Bézier curve r^i b_i
 //
 // The Moebius map changes a rational curve's pace, keeps its degree, its ends and its shape: for homogeneous points the
-// factor w(s)^p does not matter. For points in space it does: then C' is another curve.
+// factor w(s)^p does not matter. For points in space it does: then C' is another curve. On a domain [a, b] the map acts
+// on (t − a)/(b − a).
 //
-// ENSURES   (1) reverse: the identity above, knots mirrored; twice gives the curve back (exactly in exact scalars);
-//           (2) map_domain: the same points, knots mapped; (3) moebius: the identity above for every piece; multiplicities
-//           stay; C'(0) = C(0) and C'(1) = r^p C(1); r then 1/r gives the curve back; r = 1 changes nothing.
-//           On a domain [a, b] moebius acts on (t − a)/(b − a).
-//           With rounded knots the ends of the domain are exact and inner knots are rounded; if that breaks their order it
-//           is a broken contract.
+// ENSURES   (1) reverse: the identity above, knots mirrored; twice gives the curve back;
+//           (2) map_domain: the same points, knots mapped;
+//           (3) moebius: the identity above for every piece; multiplicities stay; C'(0) = C(0) and C'(1) = r^p C(1);
+//               r then 1/r gives the curve back; r = 1 changes nothing.
+//           These hold for exact knots. With rounded knots the ends of the domain are exact and the other knots are
+//           rounded; if that breaks their order it is a broken contract.
 // SCALARS   T: Ring that K embeds into (Field when K is not exact), K: OrderedField.
+// COST      O(p) products per control point.
 // SOURCE    E. Lee, M. Lucian, Möbius reparametrizations of rational B-splines, CAGD 8 (1991) 213–215.
+// NEIGHBOURS homogeneous.h, bezier_extraction.h (clamp).
 #pragma once
 
 #include <utility>
@@ -54,8 +57,8 @@ BsplineCurve<T, N, K> to_unit_domain(const BsplineCurve<T, N, K>& curve) {
 template <Ring T, std::size_t N>
 std::vector<Vec<T, N>> moebius(std::vector<Vec<T, N>> points, const T& r);
 
-// The homogeneous curve at the pace φ, on the same domain. REQUIRES r > 0; knots outside the domain must not be thrown beyond
-// the pole of φ: r + (1 − r)·x > 0 for x = (t_j − a)/(b − a) of every knot (always so for clamped curves).
+// The homogeneous curve at the pace φ, on the same domain. REQUIRES r > 0; knots outside the domain are not thrown
+// beyond the pole of φ: r + (1 − r)·x > 0 for x = (t_j − a)/(b − a) of every knot (always so for clamped curves).
 template <Ring T, std::size_t N, OrderedField K>
 BsplineCurve<T, N, K> moebius(const BsplineCurve<T, N, K>& curve, const K& r);
 
