@@ -16,7 +16,7 @@ class contract_error : public std::logic_error {
 }  // namespace patchproof
 
 // REQUIRES: `condition` holds; otherwise throws contract_error with `sentence`.
-#define PATCHPROOF_REQUIRES(condition, sentence)                          \
-  do {                                                                    \
-    if (!(condition)) throw ::patchproof::contract_error(sentence);       \
+#define PATCHPROOF_REQUIRES(condition, sentence)                    \
+  do {                                                              \
+    if (!(condition)) throw ::patchproof::contract_error(sentence); \
   } while (false)

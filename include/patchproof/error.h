@@ -16,21 +16,21 @@ namespace patchproof {
 
 // Each code with an input that provokes it.
 enum class ErrorCode {
-  cannot_open,         // a directory, a missing file, no permission
-  empty_input,         // a file of length 0
-  unknown_format,      // a file that no reader recognises
-  unsupported,         // a legal file that holds what we do not read, e.g. a trimmed surface in .g2
-  syntax,              // truncated file, text where a number should be
-  bad_number,          // "1.2.3", "nan", "1/0", a number of 10^6 digits
-  wrong_count,         // 3 control points where the degrees and knots need 16
-  bad_degree,          // degree 0 or a negative degree
-  decreasing_knots,    // 0 0 1 0.5 1 1
-  bad_multiplicity,    // one inner knot repeated more often than degree + 1
-  empty_domain,        // knots 0 0 0 0
-  vanishing_weight,    // the denominator of a rational patch is zero inside its domain
-  bad_reference,       // patch 7 of a model with 6 patches
-  mixed_roots,         // sqrt(2) and sqrt(3) in one model
-  usage,               // a request that makes no sense
+  cannot_open,       // a directory, a missing file, no permission
+  empty_input,       // a file of length 0
+  unknown_format,    // a file that no reader recognises
+  unsupported,       // a legal file that holds what we do not read, e.g. a trimmed surface in .g2
+  syntax,            // truncated file, text where a number should be
+  bad_number,        // "1.2.3", "nan", "1/0", a number of 10^6 digits
+  wrong_count,       // 3 control points where the degrees and knots need 16
+  bad_degree,        // degree 0 or a negative degree
+  decreasing_knots,  // 0 0 1 0.5 1 1
+  bad_multiplicity,  // one inner knot repeated more often than degree + 1
+  empty_domain,      // knots 0 0 0 0
+  vanishing_weight,  // the denominator of a rational patch is zero inside its domain
+  bad_reference,     // patch 7 of a model with 6 patches
+  mixed_roots,       // sqrt(2) and sqrt(3) in one model
+  usage,             // a request that makes no sense
 };
 
 // The name of a code as printed in messages: "wrong_count".

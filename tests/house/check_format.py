@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_format.py CLANG_FORMAT ROOT: names every source that `./dev format` would change; exits with 1 if there is one."""
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -14,9 +15,12 @@ def main():
     sources = sorted(p for top in tops for p in (root / top).rglob("*") if p.suffix in {".h", ".cpp", ".c"})
     if not sources:
         sys.exit(f"{root} has no sources")
-    wrong = [p for p in sources if subprocess.run([program, "--dry-run", "-Werror", str(p)], capture_output=True).returncode]
+    run = subprocess.run([program, "--dry-run", "-Werror", *map(str, sources)], capture_output=True, text=True)
+    wrong = sorted(set(re.findall(r"^(.+?):\d+:\d+: error:", run.stderr, re.M)))
     for path in wrong:
-        print(f"{path.relative_to(root)}: not formatted; run ./dev format")
+        print(f"{pathlib.Path(path).relative_to(root)}: not formatted; run ./dev format")
+    if run.returncode and not wrong:
+        sys.exit(run.stderr)
     sys.exit(1 if wrong else 0)
 
 

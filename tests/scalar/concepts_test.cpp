@@ -48,7 +48,11 @@ struct scalar_traits<Lazy> {
 namespace {
 
 template <class T>
-constexpr int kRank = ExactField<T> ? 4 : OrderedField<T> ? 3 : Field<T> ? 2 : Ring<T> ? 1 : 0;
+constexpr int kRank = ExactField<T>     ? 4
+                      : OrderedField<T> ? 3
+                      : Field<T>        ? 2
+                      : Ring<T>         ? 1
+                                        : 0;
 
 // Accepted, and no further than this.
 static_assert(kRank<Rational> == 4 && ExactRing<Rational>);
@@ -79,7 +83,9 @@ static_assert(!std::is_convertible_v<double, Interval> && !std::is_convertible_v
 static_assert(!std::is_convertible_v<Rational, Quadratic> && !std::is_convertible_v<Rational, Interval> &&
               !std::is_convertible_v<Rational, double> && !std::is_convertible_v<Interval, double>);
 template <class To, class From>
-concept Embeds = requires(const From x) { embedding<To, From>::apply(x); };
+concept Embeds = requires(const From x) {
+  embedding<To, From>::apply(x);
+};
 static_assert(Embeds<Rational, double> && Embeds<Interval, double> && Embeds<Interval, Rational> &&
               Embeds<Interval, Integer> && Embeds<Interval, Quadratic> && Embeds<Ball, Rational> &&
               Embeds<Ball, Interval> && Embeds<Quadratic, Rational> && Embeds<Rational, Integer> &&

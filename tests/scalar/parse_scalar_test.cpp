@@ -41,13 +41,36 @@ void expect_refused(const std::string& text, Decimals decimals = Decimals::exact
 
 TEST(ParseScalar, EverySpelling) {
   const std::vector<std::pair<std::string, Rational>> cases = {
-      {"42", 42}, {"-0.1", fraction(-1, 10)}, {"+.5", fraction(1, 2)}, {"1.", 1}, {"-7.", -7}, {"0", 0}, {"-0", 0},
-      {"-0.000", 0}, {"007", 7}, {"0.50", fraction(1, 2)}, {"1e-3", fraction(1, 1000)}, {"2.5E+4", 25000},
-      {"1e00003", 1000}, {".25e1", fraction(5, 2)}, {"1/7", fraction(1, 7)}, {"-3/4", fraction(-3, 4)},
-      {"0.5/3", fraction(1, 6)}, {"6/4", fraction(3, 2)}, {"1e2/2.5", 40}, {"0/5", 0}, {"0x1.8p-1", fraction(3, 4)},
-      {"-0X.8P1", -1}, {"0x10", 16}, {"0xAbC", 2748}, {"0x1.", 1}, {"0x0.0000000000001p-1022", power_of_two(-1074)},
-      {"1e19", Rational("10000000000000000000")}, {"18446744073709551615", Rational("18446744073709551615")},
-      {"18446744073709551616", Rational("18446744073709551616")}, {"0e4096", 0},
+      {"42", 42},
+      {"-0.1", fraction(-1, 10)},
+      {"+.5", fraction(1, 2)},
+      {"1.", 1},
+      {"-7.", -7},
+      {"0", 0},
+      {"-0", 0},
+      {"-0.000", 0},
+      {"007", 7},
+      {"0.50", fraction(1, 2)},
+      {"1e-3", fraction(1, 1000)},
+      {"2.5E+4", 25000},
+      {"1e00003", 1000},
+      {".25e1", fraction(5, 2)},
+      {"1/7", fraction(1, 7)},
+      {"-3/4", fraction(-3, 4)},
+      {"0.5/3", fraction(1, 6)},
+      {"6/4", fraction(3, 2)},
+      {"1e2/2.5", 40},
+      {"0/5", 0},
+      {"0x1.8p-1", fraction(3, 4)},
+      {"-0X.8P1", -1},
+      {"0x10", 16},
+      {"0xAbC", 2748},
+      {"0x1.", 1},
+      {"0x0.0000000000001p-1022", power_of_two(-1074)},
+      {"1e19", Rational("10000000000000000000")},
+      {"18446744073709551615", Rational("18446744073709551615")},
+      {"18446744073709551616", Rational("18446744073709551616")},
+      {"0e4096", 0},
       {"0.00000000000000000000000000025", Rational(1) / (Rational(4) * Rational("1000000000000000000000000000"))}};
   for (const auto& [text, value] : cases) {
     EXPECT_EQ(read(text), value) << text;
@@ -59,11 +82,21 @@ TEST(ParseScalar, EverySpelling) {
 TEST(ParseScalar, EverySpellingOfRoots) {
   const Quadratic one(1), two(2);
   const std::vector<std::pair<std::string, Quadratic>> cases = {
-      {"sqrt(2)", root(2)}, {"-sqrt(5)", -root(5)}, {"1/2*sqrt(2)", root(2) / two}, {"1-sqrt(2)", one - root(2)},
-      {"sqrt(2)/2", root(2) / two}, {"1/2+1/2*sqrt(2)", (one + root(2)) / two}, {"sqrt(3)+1", one + root(3)},
-      {"-3*sqrt(2)/4-.5", -Quadratic(3) * root(2) / Quadratic(4) - one / two}, {"sqrt(8)", two * root(2)},
-      {"sqrt(9)", Quadratic(3)}, {"sqrt(0)", Quadratic(0)}, {"1+sqrt(1)", two}, {"0*sqrt(7)", Quadratic(0)},
-      {"sqrt(2147483647)", root(2147483647)}, {"1e1*sqrt(2)", Quadratic(10) * root(2)}};
+      {"sqrt(2)", root(2)},
+      {"-sqrt(5)", -root(5)},
+      {"1/2*sqrt(2)", root(2) / two},
+      {"1-sqrt(2)", one - root(2)},
+      {"sqrt(2)/2", root(2) / two},
+      {"1/2+1/2*sqrt(2)", (one + root(2)) / two},
+      {"sqrt(3)+1", one + root(3)},
+      {"-3*sqrt(2)/4-.5", -Quadratic(3) * root(2) / Quadratic(4) - one / two},
+      {"sqrt(8)", two * root(2)},
+      {"sqrt(9)", Quadratic(3)},
+      {"sqrt(0)", Quadratic(0)},
+      {"1+sqrt(1)", two},
+      {"0*sqrt(7)", Quadratic(0)},
+      {"sqrt(2147483647)", root(2147483647)},
+      {"1e1*sqrt(2)", Quadratic(10) * root(2)}};
   for (const auto& [text, value] : cases) {
     EXPECT_TRUE(read_root(text) == value) << text << " read as " << to_text(read_root(text));
     EXPECT_TRUE(mentions_root(text));
@@ -92,7 +125,8 @@ TEST(ParseScalarLaws, Law1_RoundTrip) {
     expect_round_trip(random.rational(1 + random.below(3000)));
     const Integer n = random.integer(1 + random.below(3000));
     EXPECT_EQ(read(to_text(n)), Rational(n));
-    const Quadratic q(random.rational(1 + random.below(40)), random.rational(1 + random.below(40)), 2 + random.below(2));
+    const Quadratic q(random.rational(1 + random.below(40)), random.rational(1 + random.below(40)),
+                      2 + random.below(2));
     EXPECT_TRUE(read_root(to_text(q)) == q) << to_text(q);
   }
 }
@@ -153,7 +187,8 @@ TEST(ParseScalarLaws, Law2_Binary64IsTheNearestDouble) {
 }
 
 TEST(ParseScalarLaws, Law3_LowestTerms) {
-  for (const char* text : {"0.5", "6/4", "0x8p-4", "25e-2", "0.00000000000000000000000000000000000000000005", "10/2.5"}) {
+  for (const char* text :
+       {"0.5", "6/4", "0x8p-4", "25e-2", "0.00000000000000000000000000000000000000000005", "10/2.5"}) {
     const Rational x = read(text);
     EXPECT_EQ(gcd(numerator(x), denominator(x)), 1) << text;
     EXPECT_GT(denominator(x), 0) << text;
@@ -162,10 +197,13 @@ TEST(ParseScalarLaws, Law3_LowestTerms) {
 
 TEST(ParseScalarErrors, NotANumber) {
   for (const char* text :
-       {"", " ", "-", "+", ".", "-.", "e5", ".e5", "1e", "1e+", "1e1.5", "1.2.3", "--1", "+-1", "1-", "1+1", " 1", "1 ",
-        "1 2", "1,5", "1_000", "nan", "-nan", "inf", "Infinity", "1/", "/2", "1/-2", "1/+2", "1//2", "1/2/3", "1/ 2", "0x",
-        "0x.", "0xp1", "0x1p", "0xg", "1x2", "0x1/2", "1/0x2", "1p3", "1f", "1e5e5", "\xC2\xBD", "٣", "1\n", "1*2", "()",
-        "-0.565656565656572.45286195286198"}) {
+       {"",      " ",        "-",     "+",        ".",     "-.",  "e5",
+        ".e5",   "1e",       "1e+",   "1e1.5",    "1.2.3", "--1", "+-1",
+        "1-",    "1+1",      " 1",    "1 ",       "1 2",   "1,5", "1_000",
+        "nan",   "-nan",     "inf",   "Infinity", "1/",    "/2",  "1/-2",
+        "1/+2",  "1//2",     "1/2/3", "1/ 2",     "0x",    "0x.", "0xp1",
+        "0x1p",  "0xg",      "1x2",   "0x1/2",    "1/0x2", "1p3", "1f",
+        "1e5e5", "\xC2\xBD", "٣",     "1\n",      "1*2",   "()",  "-0.565656565656572.45286195286198"}) {
     expect_refused<Rational>(text);
     expect_refused<Quadratic>(text);
   }
@@ -175,11 +213,34 @@ TEST(ParseScalarErrors, NotANumber) {
 }
 
 TEST(ParseScalarErrors, NotARoot) {
-  for (const char* text :
-       {"sqrt", "sqrt(", "sqrt()", "sqrt(2", "sqrt 2", "sqrt(-2)", "sqrt(+2)", "sqrt(1/2)", "sqrt(2.0)", "sqrt( 2)",
-        "sqrt(2)sqrt(2)", "sqrt(2)*2", "sqrt(2)+sqrt(2)", "sqrt(2)-sqrt(3)", "1+2", "1+sqrt(2)+1", "1+-sqrt(2)",
-        "1*sqrt(2", "2sqrt(2)", "*sqrt(2)", "sqrt(2)/0", "sqrt(2)/", "sqrt(2147483648)", "sqrt(99999999999999999999)",
-        "SQRT(2)", "sqrt(sqrt(2))", "sqrt(2)/-2", "1+"})
+  for (const char* text : {"sqrt",
+                           "sqrt(",
+                           "sqrt()",
+                           "sqrt(2",
+                           "sqrt 2",
+                           "sqrt(-2)",
+                           "sqrt(+2)",
+                           "sqrt(1/2)",
+                           "sqrt(2.0)",
+                           "sqrt( 2)",
+                           "sqrt(2)sqrt(2)",
+                           "sqrt(2)*2",
+                           "sqrt(2)+sqrt(2)",
+                           "sqrt(2)-sqrt(3)",
+                           "1+2",
+                           "1+sqrt(2)+1",
+                           "1+-sqrt(2)",
+                           "1*sqrt(2",
+                           "2sqrt(2)",
+                           "*sqrt(2)",
+                           "sqrt(2)/0",
+                           "sqrt(2)/",
+                           "sqrt(2147483648)",
+                           "sqrt(99999999999999999999)",
+                           "SQRT(2)",
+                           "sqrt(sqrt(2))",
+                           "sqrt(2)/-2",
+                           "1+"})
     expect_refused<Quadratic>(text);
 }
 
@@ -190,7 +251,8 @@ TEST(ParseScalarErrors, ZeroDenominators) {
 TEST(ParseScalarErrors, Limits) {
   const std::string longest(kMaxDigits, '9');
   EXPECT_EQ(to_text(read(longest)), longest);
-  EXPECT_EQ(read("0." + std::string(kMaxDigits - 3, '0') + "1"), Rational(1) / read("1e" + std::to_string(kMaxDigits - 2)));
+  EXPECT_EQ(read("0." + std::string(kMaxDigits - 3, '0') + "1"),
+            Rational(1) / read("1e" + std::to_string(kMaxDigits - 2)));
   expect_refused<Rational>(longest + "9");
   expect_refused<Rational>(std::string(1000000, '1'));
   expect_refused<Quadratic>(std::string(1000000, '1'));

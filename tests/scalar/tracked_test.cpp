@@ -98,8 +98,9 @@ TEST(TrackedLaws, Law2_UncertainDivisors) {
 
 TEST(TrackedLaws, Law2_NothingIsKnownAfterOverflow) {
   const Tracked huge(kLargest), unknown = Tracked(1.0) / Tracked(0.0, 1.0), zero;
-  for (const Tracked& t : {huge + huge, huge * huge, huge / Tracked(kTiniest), huge * huge - huge * huge, zero * unknown,
-                           unknown * zero, unknown - unknown, zero * (huge * huge), unknown / huge, huge / unknown}) {
+  for (const Tracked& t :
+       {huge + huge, huge * huge, huge / Tracked(kTiniest), huge * huge - huge * huge, zero * unknown, unknown * zero,
+        unknown - unknown, zero * (huge * huge), unknown / huge, huge / unknown}) {
     EXPECT_EQ(t.error(), kInfinity);
     EXPECT_EQ(scalar_traits<Tracked>::sign(t), std::nullopt);
   }

@@ -49,7 +49,9 @@ inline std::vector<double> edge_doubles() {
 class WildNumbers {
  public:
   explicit WildNumbers(std::uint64_t seed = 20240301)
-      : seed_(chosen(seed)), engine_(seed_), trace_(__FILE__, __LINE__, "PATCHPROOF_TEST_SEED=" + std::to_string(seed_)) {}
+      : seed_(chosen(seed)),
+        engine_(seed_),
+        trace_(__FILE__, __LINE__, "PATCHPROOF_TEST_SEED=" + std::to_string(seed_)) {}
 
   int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
   // Any finite double: random bits, so every exponent is as likely as every other.

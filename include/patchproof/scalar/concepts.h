@@ -27,6 +27,8 @@ enum class Sign : int { negative = -1, zero = 0, positive = 1 };
 template <class T>
 struct scalar_traits;
 
+// Version 14 would take a * b below for a pointer.
+// clang-format off
 template <class T>
 concept Lane = std::copyable<T> && std::constructible_from<T, double> && requires(const T a, const T b) {
   { a + b } -> std::same_as<T>;
@@ -48,6 +50,7 @@ concept Ring = std::copyable<T> && std::default_initializable<T> && std::constru
                  { scalar_traits<T>::is_ordered } -> std::convertible_to<bool>;
                  { scalar_traits<T>::sign(a) } -> std::same_as<std::optional<Sign>>;
                };
+// clang-format on
 
 template <class T>
 concept Field = Ring<T> && scalar_traits<T>::is_field && requires(const T a, const T b) {

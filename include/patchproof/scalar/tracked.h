@@ -61,7 +61,7 @@ class Tracked {
   }
 
  private:
-  static constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // u = 2^-53, the unit roundoff
+  static constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;    // u = 2^-53, the unit roundoff
   static constexpr double kTiniest = std::numeric_limits<double>::denorm_min();  // 2^-1074
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   bool is_exact_zero() const { return value_ == 0 && error_ == 0; }

@@ -14,6 +14,7 @@
 // SOURCE   R. Farouki, V. Rajan, Algorithms for polynomials in Bernstein form, CAGD 5 (1988) 1–26 (scaled basis).
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "patchproof/contract.h"
@@ -32,7 +33,8 @@ class BinaryForm {
 
   bool is_empty() const { return a_.empty(); }
   int degree() const { return static_cast<int>(a_.size()) - 1; }  // −1 for the empty form
-  const std::vector<R>& coefficients() const { return a_; }
+  const std::vector<R>& coefficients() const& { return a_; }
+  std::vector<R> coefficients() && { return std::move(a_); }  // a reference into a temporary form would dangle
   const R& operator[](int i) const { return a_[i]; }
 
   // The same polynomial written with degree + k (multiplied by (s + t)^k).
