@@ -8,9 +8,7 @@
 namespace patchproof::test {
 namespace {
 
-Rational fraction(int p, int q) {
-  return Rational(p) / Rational(q);
-}
+Rational fraction(int p, int q) { return Rational(p) / Rational(q); }
 
 template <class T>
 class ClearedNet : public ScalarTest<T> {};
