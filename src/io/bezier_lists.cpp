@@ -14,7 +14,8 @@ std::optional<Error> read_patches(const SourceFile& source, ModelSink& sink, boo
   const Result<long> patches = cursor.integer("the number of patches");
   if (!patches) return patches.error();
   const std::string_view header = cursor.last();
-  if (*patches < 1) return source.error(ErrorCode::wrong_count, header, "the number of patches is not positive", header);
+  if (*patches < 1)
+    return source.error(ErrorCode::wrong_count, header, "the number of patches is not positive", header);
 
   RawPatch patch;
   for (long p = 0; p < *patches; ++p) {

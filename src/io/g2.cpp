@@ -31,7 +31,8 @@ class G2Reader {
     while (!cursor_.at_end())
       if (!object()) return error_;
     if (sink_.patch_count() == 0)
-      return cursor_.ended(ErrorCode::unsupported, "the file holds no spline surface", fmt::format("{} curves", curves_));
+      return cursor_.ended(ErrorCode::unsupported, "the file holds no spline surface",
+                           fmt::format("{} curves", curves_));
     if (curves_ > 0) sink_.notes.push_back(fmt::format("{} curve{} skipped", curves_, curves_ == 1 ? "" : "s"));
     return std::nullopt;
   }
@@ -47,7 +48,8 @@ class G2Reader {
     if (!read) return fail(read.error());
     value = *read;
     if (low <= value && value <= high) return true;
-    return fail(source_.error(code, cursor_.last(), fmt::format("{} is not in {} … {}", what, low, high), cursor_.last()));
+    return fail(
+        source_.error(code, cursor_.last(), fmt::format("{} is not in {} … {}", what, low, high), cursor_.last()));
   }
 
   bool object() {
@@ -67,9 +69,9 @@ class G2Reader {
     patch.at = at;
     if (type == kSplineSurface) return spline_surface(patch) && deliver(patch);
     if (type == kBoundedSurface) return bounded_surface(patch) && deliver(patch);
-    return fail(source_.error(ErrorCode::unsupported, at,
-                              "only objects of class 100 (spline curve), 200 (spline surface) and 210 (bounded surface) are read",
-                              at));
+    return fail(source_.error(
+        ErrorCode::unsupported, at,
+        "only objects of class 100 (spline curve), 200 (spline surface) and 210 (bounded surface) are read", at));
   }
 
   bool deliver(const RawPatch& patch) {
@@ -88,22 +90,27 @@ class G2Reader {
   }
 
   // "count order" and count + order knots.
-  bool basis(std::string_view direction, long& count, long& degree, RawPatch& patch, std::vector<std::string_view>& knots) {
+  bool basis(std::string_view direction, long& count, long& degree, RawPatch& patch,
+             std::vector<std::string_view>& knots) {
     long order;
-    if (!integer(fmt::format("the number of coefficients along {}", direction), 1, kMaxFileBytes, count, ErrorCode::wrong_count))
+    if (!integer(fmt::format("the number of coefficients along {}", direction), 1, kMaxFileBytes, count,
+                 ErrorCode::wrong_count))
       return false;
-    if (!integer(fmt::format("the order along {}", direction), 2, kMaxDegree + 1, order, ErrorCode::bad_degree)) return false;
+    if (!integer(fmt::format("the order along {}", direction), 2, kMaxDegree + 1, order, ErrorCode::bad_degree))
+      return false;
     degree = order - 1;
     if (count < order)
-      return fail(source_.error(ErrorCode::wrong_count, cursor_.last(), fmt::format("fewer coefficients than the order along {}",
-                  direction), fmt::format("{} coefficients, order {}", count, order)));
+      return fail(source_.error(ErrorCode::wrong_count, cursor_.last(),
+                                fmt::format("fewer coefficients than the order along {}", direction),
+                                fmt::format("{} coefficients, order {}", count, order)));
     if (cursor_.take(static_cast<std::size_t>(count + order), knots)) return true;
     return ended_inside(patch, "knots");
   }
 
   bool ended_inside(const RawPatch& patch, std::string_view what) {
     error_ = sink_.first_bad_number(patch);
-    if (!error_) error_ = cursor_.ended(ErrorCode::syntax, fmt::format("the file ends inside the {} of an object", what));
+    if (!error_)
+      error_ = cursor_.ended(ErrorCode::syntax, fmt::format("the file ends inside the {} of an object", what));
     return false;
   }
 
@@ -130,8 +137,9 @@ class G2Reader {
       return ended_inside(texts, "coefficients");
     error_ = sink_.first_bad_number(texts);
     const auto& knots = texts.knots[0];
-    curve.clamped = std::all_of(knots.begin(), knots.begin() + degree + 1, [&](auto t) { return t == knots.front(); }) &&
-                    std::all_of(knots.end() - degree - 1, knots.end(), [&](auto t) { return t == knots.back(); });
+    curve.clamped =
+        std::all_of(knots.begin(), knots.begin() + degree + 1, [&](auto t) { return t == knots.front(); }) &&
+        std::all_of(knots.end() - degree - 1, knots.end(), [&](auto t) { return t == knots.back(); });
     curve.coordinates = std::move(texts.coordinates);
     return !error_;
   }
@@ -141,7 +149,8 @@ class G2Reader {
     long type, loops, curves, ignored;
     if (!integer("the class of the bounded surface", 1, 99999, type)) return false;
     if (type != kSplineSurface)
-      return fail(source_.error(ErrorCode::unsupported, cursor_.last(), "a bounded surface that is no spline surface", cursor_.last()));
+      return fail(source_.error(ErrorCode::unsupported, cursor_.last(), "a bounded surface that is no spline surface",
+                                cursor_.last()));
     if (!spline_surface(patch)) return false;
     if (!integer("the number of loops", 0, 1000000, loops)) return false;
     if (loops != 1) return trimmed(patch, fmt::format("{} loops", loops));
@@ -163,8 +172,9 @@ class G2Reader {
   }
 
   bool trimmed(const RawPatch& patch, std::string values) {
-    return fail(source_.error(ErrorCode::unsupported, patch.at,
-                              "a trimmed surface: only bounded surfaces whose loop is the border of the domain are read", values));
+    return fail(source_.error(
+        ErrorCode::unsupported, patch.at,
+        "a trimmed surface: only bounded surfaces whose loop is the border of the domain are read", values));
   }
 
   // Exactly: every parameter curve stays on one side of the domain's rectangle, each begins where the one before ends, and
@@ -172,7 +182,8 @@ class G2Reader {
   bool is_whole(const RawPatch& patch, const std::vector<RawCurve>& loop) {
     std::array<Rational, 2> low, high;
     for (int d = 0; d < 2; ++d)
-      if (!value(patch.knots[d][patch.degree[d]], low[d]) || !value(patch.knots[d][patch.count[d]], high[d])) return false;
+      if (!value(patch.knots[d][patch.degree[d]], low[d]) || !value(patch.knots[d][patch.count[d]], high[d]))
+        return false;
     using Point = std::array<Rational, 2>;
     std::vector<Point> corners;
     Point last, first;

@@ -11,8 +11,31 @@ namespace patchproof {
 namespace {
 
 enum Node {
-  kRoot, kShape, kShapeType, kCount, kData, kSurface, kSurfaceType, kRational, kDimension, kDegreeU, kDegreeV, kKnotsU,
-  kKnotsV, kKnotU, kKnotV, kSizeU, kSizeV, kNet, kPoints, kPoint, kCoordinate, kWeights, kWeight, kTrims, kName,
+  kRoot,
+  kShape,
+  kShapeType,
+  kCount,
+  kData,
+  kSurface,
+  kSurfaceType,
+  kRational,
+  kDimension,
+  kDegreeU,
+  kDegreeV,
+  kKnotsU,
+  kKnotsV,
+  kKnotU,
+  kKnotV,
+  kSizeU,
+  kSizeV,
+  kNet,
+  kPoints,
+  kPoint,
+  kCoordinate,
+  kWeights,
+  kWeight,
+  kTrims,
+  kName,
 };
 
 constexpr JsonRule kRules[] = {
@@ -68,7 +91,8 @@ class GeomdlVisitor final : public JsonVisitor {
     if (node == kPoint) {
       if (points_ == 0) patch_.per_point = static_cast<int>(components_);
       if (components_ != patch_.per_point || (components_ != 2 && components_ != 3))
-        return walker.error(ErrorCode::wrong_count, "all points have 2 numbers, or all have 3", std::to_string(components_));
+        return walker.error(ErrorCode::wrong_count, "all points have 2 numbers, or all have 3",
+                            std::to_string(components_));
       ++points_;
     } else if (node == kSurface) {
       return finish_surface(walker);
@@ -76,7 +100,8 @@ class GeomdlVisitor final : public JsonVisitor {
       const long found = static_cast<long>(sink_.patch_count());
       if (found == 0) return walker.error(ErrorCode::wrong_count, "the file holds no surfaces");
       if (count_ && *count_ != found)
-        return walker.error(ErrorCode::wrong_count, fmt::format("{} surfaces are announced", *count_), std::to_string(found));
+        return walker.error(ErrorCode::wrong_count, fmt::format("{} surfaces are announced", *count_),
+                            std::to_string(found));
     }
     return std::nullopt;
   }
@@ -84,10 +109,12 @@ class GeomdlVisitor final : public JsonVisitor {
   std::optional<Error> leaf(int node, std::string_view text, const JsonWalker& walker) override {
     switch (node) {
       case kShapeType:
-        if (text != "surface") return walker.error(ErrorCode::unsupported, "only shapes of type \"surface\" are read", text);
+        if (text != "surface")
+          return walker.error(ErrorCode::unsupported, "only shapes of type \"surface\" are read", text);
         break;
       case kSurfaceType:
-        if (text != "spline") return walker.error(ErrorCode::unsupported, "only surfaces of type \"spline\" are read", text);
+        if (text != "spline")
+          return walker.error(ErrorCode::unsupported, "only surfaces of type \"spline\" are read", text);
         break;
       case kName: patch_.name = text; break;
       case kRational: patch_.weight_form = text == "true" ? Weights::separate : Weights::none; break;

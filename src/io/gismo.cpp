@@ -26,10 +26,12 @@ class GismoReader {
     const pugi::xml_parse_result parsed =
         document_.load_buffer(source_.bytes.data(), source_.bytes.size(), pugi::parse_cdata, pugi::encoding_utf8);
     if (!parsed)
-      return source_.error(ErrorCode::syntax, source_.bytes.substr(std::min<std::size_t>(parsed.offset, source_.bytes.size())),
+      return source_.error(ErrorCode::syntax,
+                           source_.bytes.substr(std::min<std::size_t>(parsed.offset, source_.bytes.size())),
                            fmt::format("this is not well-formed XML: {}", parsed.description()));
     const pugi::xml_node root = document_.child("xml");
-    if (!root) return source_.error(ErrorCode::unknown_format, source_.bytes, "an XML file whose root element is not <xml>");
+    if (!root)
+      return source_.error(ErrorCode::unknown_format, source_.bytes, "an XML file whose root element is not <xml>");
     for (const pugi::xml_node node : root.children("Geometry"))
       if (!geometry(node)) return error_;
     for (const pugi::xml_node node : root.children("MultiPatch"))
@@ -59,7 +61,8 @@ class GismoReader {
     for (const pugi::xml_node part : node.children()) {
       const std::ptrdiff_t offset = part.offset_debug();
       if ((part.type() != pugi::node_pcdata && part.type() != pugi::node_cdata) || offset < 0) continue;
-      const SourceFile text{source_.path, source_.bytes.substr(static_cast<std::size_t>(offset), std::strlen(part.value()))};
+      const SourceFile text{source_.path,
+                            source_.bytes.substr(static_cast<std::size_t>(offset), std::strlen(part.value()))};
       TextCursor cursor(text, TextCursor::Comments::none);
       for (std::string_view word = cursor.next(); !word.empty(); word = cursor.next()) out.push_back(word);
     }
@@ -70,7 +73,8 @@ class GismoReader {
     const pugi::xml_attribute found = node.attribute(attribute);
     if (!found) return fail(ErrorCode::syntax, node, fmt::format("<{}> has no attribute {}", node.name(), attribute));
     const std::optional<long> read = to_integer(found.value());
-    if (!read) return fail(ErrorCode::syntax, node, fmt::format("{} should be a whole number", attribute), found.value());
+    if (!read)
+      return fail(ErrorCode::syntax, node, fmt::format("{} should be a whole number", attribute), found.value());
     value = *read;
     return true;
   }
@@ -86,7 +90,8 @@ class GismoReader {
     }
     const bool rational = type == "TensorNurbs2";
     if (!rational && type != "TensorBSpline2")
-      return fail(ErrorCode::unsupported, node, "only geometries of type TensorBSpline2 and TensorNurbs2 are read", type);
+      return fail(ErrorCode::unsupported, node, "only geometries of type TensorBSpline2 and TensorNurbs2 are read",
+                  type);
 
     RawPatch patch;
     patch.name = id;
@@ -123,7 +128,8 @@ class GismoReader {
       long index = position++;
       if (basis.attribute("index") && !integer(basis, "index", index)) return false;
       if (index < 0 || index > 1 || seen[index])
-        return fail(ErrorCode::syntax, basis, "a tensor basis has the indices 0 and 1, once each", std::to_string(index));
+        return fail(ErrorCode::syntax, basis, "a tensor basis has the indices 0 and 1, once each",
+                    std::to_string(index));
       seen[index] = true;
       const pugi::xml_node knots = basis.child("KnotVector");
       if (!knots) return fail(ErrorCode::syntax, basis, "a <Basis> without <KnotVector>");
@@ -158,7 +164,8 @@ class GismoReader {
     }
     for (const long id : named)
       if (!ids_.contains(std::to_string(id)))
-        return fail(ErrorCode::bad_reference, patches, "the multipatch names a geometry that is not there", std::to_string(id));
+        return fail(ErrorCode::bad_reference, patches, "the multipatch names a geometry that is not there",
+                    std::to_string(id));
     return true;
   }
 

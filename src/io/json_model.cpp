@@ -14,8 +14,32 @@ namespace patchproof {
 namespace {
 
 enum Node {
-  kRoot, kFormat, kVersion, kUnits, kPatches, kPatch, kName, kDegrees, kDegree, kKnots, kKnotVector, kKnot, kNet, kRow,
-  kPoint, kCoordinate, kWeights, kWeightRow, kWeight, kJoins, kJoin, kSideA, kSideB, kSidePatch, kSideEdge, kReversed,
+  kRoot,
+  kFormat,
+  kVersion,
+  kUnits,
+  kPatches,
+  kPatch,
+  kName,
+  kDegrees,
+  kDegree,
+  kKnots,
+  kKnotVector,
+  kKnot,
+  kNet,
+  kRow,
+  kPoint,
+  kCoordinate,
+  kWeights,
+  kWeightRow,
+  kWeight,
+  kJoins,
+  kJoin,
+  kSideA,
+  kSideB,
+  kSidePatch,
+  kSideEdge,
+  kReversed,
 };
 
 constexpr JsonRule kRules[] = {
@@ -73,7 +97,8 @@ class ModelVisitor final : public JsonVisitor {
         degrees_ = knot_vectors_ = components_ = 0;
         break;
       case kKnotVector:
-        if (knot_vectors_ == 2) return walker.error(ErrorCode::wrong_count, "a patch has two knot vectors, for u and for v");
+        if (knot_vectors_ == 2)
+          return walker.error(ErrorCode::wrong_count, "a patch has two knot vectors, for u and for v");
         break;
       case kRow: net_.entries = 0; break;
       case kPoint: components_ = 0; break;
@@ -89,7 +114,8 @@ class ModelVisitor final : public JsonVisitor {
       case kRoot: return finish(walker);
       case kPatch: return finish_patch(walker);
       case kDegrees:
-        if (degrees_ != 2) return walker.error(ErrorCode::wrong_count, "two degrees should stand here", count_text(degrees_));
+        if (degrees_ != 2)
+          return walker.error(ErrorCode::wrong_count, "two degrees should stand here", count_text(degrees_));
         break;
       case kKnotVector: ++knot_vectors_; break;
       case kKnots:
@@ -99,7 +125,8 @@ class ModelVisitor final : public JsonVisitor {
         break;
       case kRow:
         if (!net_.row_fits())
-          return walker.error(ErrorCode::wrong_count, fmt::format("the first row has {} control points", net_.row_length),
+          return walker.error(ErrorCode::wrong_count,
+                              fmt::format("the first row has {} control points", net_.row_length),
                               count_text(net_.entries));
         break;
       case kPoint: return finish_point(walker);
@@ -133,7 +160,8 @@ class ModelVisitor final : public JsonVisitor {
       case kName: patch_.name = text; break;
       case kDegree: {
         const std::optional<long> degree = to_integer(text);
-        if (degrees_ == 2) return walker.error(ErrorCode::wrong_count, "a patch has two degrees, for u and for v", text);
+        if (degrees_ == 2)
+          return walker.error(ErrorCode::wrong_count, "a patch has two degrees, for u and for v", text);
         if (!degree) return walker.error(ErrorCode::bad_degree, "the degree is too large", text);
         patch_.degree[degrees_++] = *degree;
         break;
@@ -190,12 +218,14 @@ class ModelVisitor final : public JsonVisitor {
     if (patch_.per_point == 4) patch_.weight_form = Weights::homogeneous;
     if (weights_.rows > 0) {
       if (patch_.per_point == 4)
-        return walker.error(ErrorCode::syntax, "homogeneous points of four numbers carry their weights: no \"weights\" beside them");
+        return walker.error(ErrorCode::syntax,
+                            "homogeneous points of four numbers carry their weights: no \"weights\" beside them");
       patch_.weight_form = Weights::separate;
       if (weights_.rows != net_.rows || weights_.row_length != net_.row_length)
         return source_.error(ErrorCode::wrong_count, patch_.weights.empty() ? patch_.at : patch_.weights.front(),
                              fmt::format("{} x {} control points need as many weights", net_.rows, net_.row_length),
-                             fmt::format("{} x {} weights", weights_.rows, weights_.row_length), patch_.pointer + "/weights");
+                             fmt::format("{} x {} weights", weights_.rows, weights_.row_length),
+                             patch_.pointer + "/weights");
     }
     return sink_.add(patch_);
   }
@@ -204,8 +234,9 @@ class ModelVisitor final : public JsonVisitor {
     const std::size_t patches = sink_.patch_count();
     if (patches == 0) return walker.error(ErrorCode::wrong_count, "the model has no patches");
     if (largest_ && static_cast<std::size_t>(largest_->patch) >= patches)
-      return source_.error(ErrorCode::bad_reference, largest_->text, fmt::format("the model has patches 0 … {}", patches - 1),
-                           largest_->text, fmt::format("/joins/{}/{}/patch", largest_->join, largest_->side));
+      return source_.error(ErrorCode::bad_reference, largest_->text,
+                           fmt::format("the model has patches 0 … {}", patches - 1), largest_->text,
+                           fmt::format("/joins/{}/{}/patch", largest_->join, largest_->side));
     sink_.joins = std::move(joins_);
     return std::nullopt;
   }

@@ -2,6 +2,7 @@
 #include "json_walker.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -45,7 +46,9 @@ std::string escaped(std::string_view key) {  // RFC 6901
   return out;
 }
 
-bool is_number_char(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E'; }
+bool is_number_char(char c) {
+  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E';
+}
 
 // Levenshtein's distance, for "did you mean".
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -64,16 +67,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-JsonWalker::JsonWalker(const SourceFile& source, std::span<const JsonRule> rules, UnknownKeys unknown, JsonVisitor& visitor)
+JsonWalker::JsonWalker(const SourceFile& source, std::span<const JsonRule> rules, UnknownKeys unknown,
+                       JsonVisitor& visitor)
     : source_(source), rules_(rules), unknown_(unknown), visitor_(visitor), position_(source.bytes.data()) {
   PATCHPROOF_REQUIRES(rules.size() <= 64, "JsonWalker: the seen keys are kept in 64 bits");
-}
-
-std::optional<Error> JsonWalker::walk() {
-  const char* end = source_.bytes.data() + source_.bytes.size();
-  const bool complete = nlohmann::json::sax_parse(WatchedIterator{&position_}, WatchedIterator{&end}, this);
-  if (!complete && !error_) error_ = error(ErrorCode::syntax, "this is not well-formed JSON");
-  return error_;
 }
 
 std::string JsonWalker::pointer() const {
@@ -126,7 +123,8 @@ bool JsonWalker::scalar(JsonType found, std::string_view text, const char* name)
                       (rule->type == JsonType::integer && found == JsonType::number &&
                        text.find_first_of(".eE") == std::string_view::npos);
     if (!fits)
-      return fail(error(ErrorCode::syntax, fmt::format("{} should stand here, not {}", to_string(rule->type), name), text));
+      return fail(
+          error(ErrorCode::syntax, fmt::format("{} should stand here, not {}", to_string(rule->type), name), text));
     error_ = visitor_.leaf(rule->node, text, *this);
     if (error_) return false;
   }
@@ -178,7 +176,9 @@ std::string_view JsonWalker::number_text() const {
 
 // The letters, digits and signs around the place where the parser stopped, or the one character that stands there.
 std::string_view JsonWalker::word_here() const {
-  const auto belongs = [](char c) { return is_number_char(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '/'; };
+  const auto belongs = [](char c) {
+    return is_number_char(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '/';
+  };
   const char* const begin = source_.bytes.data();
   const char* const end = begin + source_.bytes.size();
   const char* first = position_ == begin ? position_ : position_ - 1;
@@ -189,14 +189,9 @@ std::string_view JsonWalker::word_here() const {
   return std::string_view(first, static_cast<std::size_t>(last - first));
 }
 
-bool JsonWalker::null() { return scalar(JsonType::ignored, "null", "null"); }
-bool JsonWalker::boolean(bool value) { return scalar(JsonType::boolean, value ? "true" : "false", "true or false"); }
-bool JsonWalker::number_integer(std::int64_t) { return scalar(JsonType::number, number_text(), "a number"); }
-bool JsonWalker::number_unsigned(std::uint64_t) { return scalar(JsonType::number, number_text(), "a number"); }
-bool JsonWalker::number_float(double, const std::string&) { return scalar(JsonType::number, number_text(), "a number"); }
-bool JsonWalker::binary(nlohmann::json::binary_t&) { return fail(error(ErrorCode::syntax, "binary data")); }
+bool JsonWalker::number() { return scalar(JsonType::number, number_text(), "a number"); }
 
-bool JsonWalker::string(std::string& value) {
+bool JsonWalker::string(const std::string& value) {
   // A number inside a string is handed over as a view into the file, too, unless escapes make the two differ.
   const JsonRule* rule = skipped_depth_ > 0 ? nullptr : expected();
   if (rule == nullptr || rule->type != JsonType::number) return scalar(JsonType::string, value, "a string");
@@ -206,12 +201,7 @@ bool JsonWalker::string(std::string& value) {
   return scalar(JsonType::string, written == value ? written : rewritten_.emplace_back(value), "a string");
 }
 
-bool JsonWalker::start_object(std::size_t) { return open(JsonType::object, "an object"); }
-bool JsonWalker::end_object() { return close(); }
-bool JsonWalker::start_array(std::size_t) { return open(JsonType::array, "an array"); }
-bool JsonWalker::end_array() { return close(); }
-
-bool JsonWalker::key(std::string& name) {
+bool JsonWalker::key(const std::string& name) {
   if (skipped_depth_ > 0) return true;
   Frame& frame = frames_.back();
   frame.key = name;
@@ -232,11 +222,9 @@ bool JsonWalker::key(std::string& name) {
   return true;
 }
 
-bool JsonWalker::parse_error(std::size_t, const std::string&, const nlohmann::json::exception& reason) {
+bool JsonWalker::parse_error(int id, std::string message) {
   constexpr int kOutOfRange = 406;  // a number beyond the doubles
-  if (reason.id == kOutOfRange)
-    return fail(error(ErrorCode::bad_number, "a number beyond the largest double", number_text()));
-  std::string message = reason.what();
+  if (id == kOutOfRange) return fail(error(ErrorCode::bad_number, "a number beyond the largest double", number_text()));
   if (const std::size_t column = message.find("column "); column != std::string::npos)
     if (const std::size_t colon = message.find(": ", column); colon != std::string::npos) message.erase(0, colon + 2);
   message.erase(std::min(message.size(), message.find("; last read")));  // everything read so far, at worst
@@ -246,6 +234,36 @@ bool JsonWalker::parse_error(std::size_t, const std::string&, const nlohmann::js
   if (!at_end && !word.empty() && number_begins.find(word.front()) != std::string_view::npos)
     return fail(error(ErrorCode::bad_number, "not a number", word));
   return fail(error(ErrorCode::syntax, message, word));
+}
+
+// nlohmann-json's SAX interface.
+struct JsonEvents {
+  using Json = nlohmann::json;
+  JsonWalker& walker;
+
+  bool null() { return walker.scalar(JsonType::ignored, "null", "null"); }
+  bool boolean(bool value) { return walker.scalar(JsonType::boolean, value ? "true" : "false", "true or false"); }
+  bool number_integer(Json::number_integer_t) { return walker.number(); }
+  bool number_unsigned(Json::number_unsigned_t) { return walker.number(); }
+  bool number_float(Json::number_float_t, const std::string&) { return walker.number(); }
+  bool string(std::string& value) { return walker.string(value); }
+  bool binary(Json::binary_t&) { return false; }  // not in JSON texts
+  bool start_object(std::size_t) { return walker.open(JsonType::object, "an object"); }
+  bool key(std::string& name) { return walker.key(name); }
+  bool end_object() { return walker.close(); }
+  bool start_array(std::size_t) { return walker.open(JsonType::array, "an array"); }
+  bool end_array() { return walker.close(); }
+  bool parse_error(std::size_t, const std::string&, const Json::exception& reason) {
+    return walker.parse_error(reason.id, reason.what());
+  }
+};
+
+std::optional<Error> JsonWalker::walk() {
+  const char* end = source_.bytes.data() + source_.bytes.size();
+  JsonEvents events{*this};
+  const bool complete = nlohmann::json::sax_parse(WatchedIterator{&position_}, WatchedIterator{&end}, &events);
+  if (!complete && !error_) error_ = error(ErrorCode::syntax, "this is not well-formed JSON");
+  return error_;
 }
 
 }  // namespace patchproof

@@ -11,8 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "source_file.h"
 
 namespace patchproof {
@@ -63,22 +61,8 @@ class JsonWalker {
   std::string_view here() const;
   Error error(ErrorCode code, std::string message, std::string_view values = {}) const;
 
-  // nlohmann-json's SAX interface.
-  bool null();
-  bool boolean(bool value);
-  bool number_integer(std::int64_t value);
-  bool number_unsigned(std::uint64_t value);
-  bool number_float(double value, const std::string& text);
-  bool string(std::string& value);
-  bool binary(nlohmann::json::binary_t& value);
-  bool start_object(std::size_t);
-  bool key(std::string& name);
-  bool end_object();
-  bool start_array(std::size_t);
-  bool end_array();
-  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& reason);
-
  private:
+  friend struct JsonEvents;  // the parser's SAX interface, in json_walker.cpp
   struct Frame {
     const JsonRule* rule;     // of the object or array itself
     const JsonRule* element;  // of the array's elements, or of the current key's value; nullptr: skipped
@@ -92,6 +76,10 @@ class JsonWalker {
   bool scalar(JsonType found, std::string_view text, const char* name);
   bool open(JsonType found, const char* name);
   bool close();
+  bool key(const std::string& name);
+  bool number();
+  bool string(const std::string& value);
+  bool parse_error(int id, std::string message);
   void value_done();
   std::string_view number_text() const;
   std::string_view word_here() const;
@@ -102,7 +90,7 @@ class JsonWalker {
   JsonVisitor& visitor_;
   const char* position_;
   std::vector<Frame> frames_;
-  std::size_t skipped_depth_ = 0;  // inside a skipped object or array
+  std::size_t skipped_depth_ = 0;      // inside a skipped object or array
   std::deque<std::string> rewritten_;  // numbers in strings that were written with escapes, such as "1\/3"
   std::optional<Error> error_;
 };

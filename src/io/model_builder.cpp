@@ -62,7 +62,8 @@ bool ModelBuilder<T>::number(std::string_view text, const Pointer& pointer, T& v
       }
     }
   }
-  if (!is_small(value)) return fail(ErrorCode::bad_number, text, "the number is not below 2^1000 in size", text, pointer());
+  if (!is_small(value))
+    return fail(ErrorCode::bad_number, text, "the number is not below 2^1000 in size", text, pointer());
   return true;
 }
 
@@ -72,7 +73,9 @@ std::optional<Error> ModelBuilder<T>::first_bad_number(const RawPatch& patch) {
   T ignored;
   for (int d = 0; d < 2; ++d)
     for (std::size_t k = 0; k < patch.knots[d].size(); ++k)
-      if (!number(patch.knots[d][k], [&] { return patch.knot_pointer(d, k); }, ignored)) return error_;
+      if (!number(
+              patch.knots[d][k], [&] { return patch.knot_pointer(d, k); }, ignored))
+        return error_;
   for (std::size_t k = 0; k < patch.coordinates.size(); ++k) {
     const auto pointer = [&] {
       return patch.coordinate_pointer(k / patch.per_point, static_cast<int>(k % patch.per_point));
@@ -80,7 +83,9 @@ std::optional<Error> ModelBuilder<T>::first_bad_number(const RawPatch& patch) {
     if (!number(patch.coordinates[k], pointer, ignored)) return error_;
   }
   for (std::size_t k = 0; k < patch.weights.size(); ++k)
-    if (!number(patch.weights[k], [&] { return patch.weight_pointer(k); }, ignored)) return error_;
+    if (!number(
+            patch.weights[k], [&] { return patch.weight_pointer(k); }, ignored))
+      return error_;
   return std::nullopt;
 }
 
@@ -95,11 +100,14 @@ std::optional<KnotVector<T>> ModelBuilder<T>::knots(const RawPatch& patch, int d
 
   std::vector<T> values(texts.size());
   for (std::size_t k = 0; k < texts.size(); ++k)
-    if (!number(texts[k], [&] { return patch.knot_pointer(d, k); }, values[k])) return std::nullopt;
+    if (!number(
+            texts[k], [&] { return patch.knot_pointer(d, k); }, values[k]))
+      return std::nullopt;
   for (std::size_t k = 1; k < values.size(); ++k)
     if (values[k] < values[k - 1]) {
-      fail(ErrorCode::decreasing_knots, texts[k], fmt::format("knot {} along {} is smaller than the one before it", k,
-           kDirectionName[d]), fmt::format("{} after {}", texts[k], texts[k - 1]), patch.knot_pointer(d, k));
+      fail(ErrorCode::decreasing_knots, texts[k],
+           fmt::format("knot {} along {} is smaller than the one before it", k, kDirectionName[d]),
+           fmt::format("{} after {}", texts[k], texts[k - 1]), patch.knot_pointer(d, k));
       return std::nullopt;
     }
   for (std::size_t begin = 0; begin < values.size();) {
@@ -107,8 +115,10 @@ std::optional<KnotVector<T>> ModelBuilder<T>::knots(const RawPatch& patch, int d
     while (end < values.size() && values[end] == values[begin]) ++end;
     // A domain of nothing but one knot is better called empty.
     if (end - begin > static_cast<std::size_t>(degree) + 1 && end - begin < values.size()) {
-      fail(ErrorCode::bad_multiplicity, texts[begin], fmt::format("a knot along {} stands {} times; degree {} allows {}",
-           kDirectionName[d], end - begin, degree, degree + 1), texts[begin], patch.knot_pointer(d, begin));
+      fail(ErrorCode::bad_multiplicity, texts[begin],
+           fmt::format("a knot along {} stands {} times; degree {} allows {}", kDirectionName[d], end - begin, degree,
+                       degree + 1),
+           texts[begin], patch.knot_pointer(d, begin));
       return std::nullopt;
     }
     begin = end;
@@ -134,9 +144,10 @@ bool ModelBuilder<T>::counts_fit(const RawPatch& patch, const std::array<int, 2>
                   fmt::format("{} control points", patch.count[d]), pointer);
   const std::size_t points = static_cast<std::size_t>(needed[0]) * needed[1];
   if (patch.coordinates.size() != points * patch.per_point)
-    return fail(ErrorCode::wrong_count, patch.coordinates.empty() ? patch.at : patch.coordinates.front(),
-                fmt::format("{} x {} control points need {} coordinates", needed[0], needed[1], points * patch.per_point),
-                fmt::format("{} coordinates", patch.coordinates.size()), pointer);
+    return fail(
+        ErrorCode::wrong_count, patch.coordinates.empty() ? patch.at : patch.coordinates.front(),
+        fmt::format("{} x {} control points need {} coordinates", needed[0], needed[1], points * patch.per_point),
+        fmt::format("{} coordinates", patch.coordinates.size()), pointer);
   if (patch.weight_form == Weights::separate && patch.weights.size() != points)
     return fail(ErrorCode::wrong_count, patch.weights.empty() ? patch.at : patch.weights.front(),
                 fmt::format("{} x {} control points need {} weights", needed[0], needed[1], points),
@@ -150,11 +161,15 @@ bool ModelBuilder<T>::point(const RawPatch& patch, std::size_t k, Vec<T, 4>& out
   const std::string_view* texts = patch.coordinates.data() + k * patch.per_point;
   T& weight = out[3] = T(1);
   for (int c = 0; c < dimension; ++c)
-    if (!number(texts[c], [&] { return patch.coordinate_pointer(k, c); }, out[c])) return false;
+    if (!number(
+            texts[c], [&] { return patch.coordinate_pointer(k, c); }, out[c]))
+      return false;
   if (patch.weight_form == Weights::none) return true;
   const bool separate = patch.weight_form == Weights::separate;
   const std::string_view weight_text = separate ? patch.weights[k] : texts[dimension];
-  const auto weight_pointer = [&] { return separate ? patch.weight_pointer(k) : patch.coordinate_pointer(k, dimension); };
+  const auto weight_pointer = [&] {
+    return separate ? patch.weight_pointer(k) : patch.coordinate_pointer(k, dimension);
+  };
   if (!number(weight_text, weight_pointer, weight)) return false;
   if (is_one(weight)) return true;
   const T room = size_limit<T>() * (weight < T(0) ? -weight : weight);
@@ -182,7 +197,8 @@ bool ModelBuilder<T>::denominator_is_fine(const RawPatch& patch, const BsplinePa
   const bool proven = verdict.sign == DenominatorSign::vanishes;
   return fail(ErrorCode::vanishing_weight, at,
               proven ? "the weights make the denominator of the patch zero inside its domain"
-                     : "a zero of the denominator of the patch inside its domain could not be excluded", where, pointer);
+                     : "a zero of the denominator of the patch inside its domain could not be excluded",
+              where, pointer);
 }
 
 template <ExactField T>
@@ -192,9 +208,9 @@ std::optional<Error> ModelBuilder<T>::add(const RawPatch& patch) {
     if (patch.degree[d] < 1 || patch.degree[d] > kMaxDegree) {
       fail(ErrorCode::bad_degree, patch.at,
            fmt::format("the degree along {} is not in 1 … {}", kDirectionName[d], kMaxDegree),
-           fmt::format("{}", patch.degree[d]), patch.layout == JsonLayout::geomdl
-               ? patch.member_pointer(fmt::format("degree_{}", kDirectionName[d]))
-               : patch.member_pointer(fmt::format("degree/{}", d)));
+           fmt::format("{}", patch.degree[d]),
+           patch.layout == JsonLayout::geomdl ? patch.member_pointer(fmt::format("degree_{}", kDirectionName[d]))
+                                              : patch.member_pointer(fmt::format("degree/{}", d)));
       return error_;
     }
   std::optional<KnotVector<T>> u = knots(patch, 0);

@@ -16,9 +16,11 @@ Result<long> count_line(TextCursor& cursor, std::string_view what) {
     return cursor.ended(ErrorCode::syntax, fmt::format("the file ends where the number of {} should stand", what));
   const std::optional<long> count = to_integer(line);
   if (!count)
-    return cursor.source().error(ErrorCode::syntax, line, fmt::format("the number of {} should stand here", what), line);
+    return cursor.source().error(ErrorCode::syntax, line, fmt::format("the number of {} should stand here", what),
+                                 line);
   if (*count < 1)
-    return cursor.source().error(ErrorCode::wrong_count, line, fmt::format("the number of {} is not positive", what), line);
+    return cursor.source().error(ErrorCode::wrong_count, line, fmt::format("the number of {} is not positive", what),
+                                 line);
   return *count;
 }
 
@@ -30,7 +32,8 @@ Result<std::vector<std::string_view>> table(TextCursor& cursor, long count, std:
     const std::string_view line = cursor.next_line();
     if (line.empty())
       return cursor.source().error(ErrorCode::wrong_count, header,
-                                   fmt::format("{} {} are announced but the file ends after {}", count, what, row), header);
+                                   fmt::format("{} {} are announced but the file ends after {}", count, what, row),
+                                   header);
     const std::vector<std::string_view> parts = split_at_commas(line);
     if (parts.size() != width)
       return cursor.source().error(ErrorCode::wrong_count, line,
@@ -54,7 +57,8 @@ std::optional<Error> read_newell(const SourceFile& source, ModelSink& sink) {
   if (!coordinates) return coordinates.error();
   if (!cursor.at_end()) {
     const std::string_view line = cursor.next_line();
-    return source.error(ErrorCode::wrong_count, line, fmt::format("text after the last of {} vertices", *vertices), line);
+    return source.error(ErrorCode::wrong_count, line, fmt::format("text after the last of {} vertices", *vertices),
+                        line);
   }
 
   RawPatch patch;
@@ -66,9 +70,12 @@ std::optional<Error> read_newell(const SourceFile& source, ModelSink& sink) {
     for (int k = 0; k < 16; ++k) {
       const std::string_view text = (*indices)[16 * p + k];
       const std::optional<long> index = to_integer(text);
-      if (!index) return source.error(ErrorCode::syntax, text.empty() ? patch.at : text, "a vertex index should stand here", text);
+      if (!index)
+        return source.error(ErrorCode::syntax, text.empty() ? patch.at : text, "a vertex index should stand here",
+                            text);
       if (*index < 1 || *index > *vertices)
-        return source.error(ErrorCode::bad_reference, text, fmt::format("the file has vertices 1 … {}", *vertices), text);
+        return source.error(ErrorCode::bad_reference, text, fmt::format("the file has vertices 1 … {}", *vertices),
+                            text);
       const auto vertex = coordinates->begin() + 3 * (*index - 1);
       patch.coordinates.insert(patch.coordinates.end(), vertex, vertex + 3);
     }

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "source_file.h"
 #include "patchproof/io/model.h"
+#include "source_file.h"
 
 namespace patchproof {
 

@@ -60,7 +60,9 @@ Error SourceFile::error(ErrorCode code, std::string_view at, std::string message
 
 Result<std::string> load_file(const std::string& path) {
   namespace fs = std::filesystem;
-  const auto refuse = [&path](ErrorCode code, std::string message) { return Error{code, path, std::move(message), ""}; };
+  const auto refuse = [&path](ErrorCode code, std::string message) {
+    return Error{code, path, std::move(message), ""};
+  };
   std::error_code failure;
   const fs::file_status status = fs::status(path, failure);
   if (status.type() == fs::file_type::not_found) return refuse(ErrorCode::cannot_open, "no such file");

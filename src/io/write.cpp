@@ -37,9 +37,7 @@ std::string number(const Rational& x) {
   return text.empty() ? quoted(to_text(x)) : text;
 }
 
-std::string number(const Quadratic& x) {
-  return x.is_rational() ? number(x.rational_part()) : quoted(to_text(x));
-}
+std::string number(const Quadratic& x) { return x.is_rational() ? number(x.rational_part()) : quoted(to_text(x)); }
 
 using Buffer = fmt::memory_buffer;
 
@@ -93,9 +91,8 @@ void patch(Buffer& out, const ModelPatch<T>& patch) {
   });
   if (patch.is_rational && !homogeneous) {
     put(out, ",\n      \"weights\": ");
-    list(out, rows, ",\n        ", [&](int i) {
-      list(out, columns, ", ", [&](int j) { put(out, "{}", number(surface.point(i, j)[3])); });
-    });
+    list(out, rows, ",\n        ",
+         [&](int i) { list(out, columns, ", ", [&](int j) { put(out, "{}", number(surface.point(i, j)[3])); }); });
   }
   put(out, "\n    }}");
 }
@@ -117,8 +114,11 @@ std::string write_model_json(const Model<T>& model) {
     put(out, ",\n  \"joins\": [\n");
     for (std::size_t k = 0; k < model.joins.size(); ++k) {
       const DeclaredJoin& join = model.joins[k];
-      put(out, "{}    {{\"a\": {{\"patch\": {}, \"edge\": \"{}\"}}, \"b\": {{\"patch\": {}, \"edge\": \"{}\"}}, \"reversed\": {}}}",
-          k > 0 ? ",\n" : "", join.patch_a, to_string(join.edge_a), join.patch_b, to_string(join.edge_b), join.reversed);
+      put(out,
+          "{}    {{\"a\": {{\"patch\": {}, \"edge\": \"{}\"}}, \"b\": {{\"patch\": {}, \"edge\": \"{}\"}}, "
+          "\"reversed\": {}}}",
+          k > 0 ? ",\n" : "", join.patch_a, to_string(join.edge_a), join.patch_b, to_string(join.edge_b),
+          join.reversed);
     }
     put(out, "\n  ]");
   }

@@ -37,7 +37,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           check(!model.patches.empty());
           const std::string text = write_model_json(model);
           const Result<ModelFile> back = read_model_text(text, "back.json");
-          check(back.has_value());
+          if (!back) {  // only fractions with more characters than a number may have are refused (io/write.h)
+            check(back.error().code == ErrorCode::bad_number && text.size() > kMaxDigits);
+            return;
+          }
           // A model read over Q(√d) whose roots all cancel comes back over Q.
           if (const M* same = std::get_if<M>(&back->model)) check(write_model_json(*same) == text);
         },

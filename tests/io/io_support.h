@@ -68,7 +68,8 @@ inline std::size_t patch_count(const AnyModel& model) {
 }
 
 // A model of one patch in our JSON; `more` is appended inside the patch.
-inline std::string json_patch(const std::string& net, const std::string& more = "", const std::string& degree = "[1,1]") {
+inline std::string json_patch(const std::string& net, const std::string& more = "",
+                              const std::string& degree = "[1,1]") {
   return "{\"format\":\"patchproof-model\",\"version\":1,\n\"patches\":[\n{\"degree\":" + degree +
          ",\n\"control_points\":" + net + more + "\n}\n]}";
 }
@@ -77,12 +78,14 @@ inline const std::string kSquare = "[[[0,0,0],[0,1,0]],[[1,0,0],[1,1,0]]]";
 // One bilinear G+Smo patch, rational when weights are given.
 inline std::string gismo_patch(const std::string& coefficients, const std::string& weights = "",
                                const std::string& knots = "0 0 1 1", const std::string& dimension = "3") {
-  std::string basis = "<Basis type=\"TensorBSplineBasis2\">\n<Basis type=\"BSplineBasis\" index=\"0\">\n<KnotVector degree=\"1\">" +
-                      knots + "</KnotVector></Basis>\n<Basis type=\"BSplineBasis\" index=\"1\"><KnotVector degree=\"1\">0 0 1 1" +
-                      "</KnotVector></Basis>\n</Basis>\n";
+  std::string basis =
+      "<Basis type=\"TensorBSplineBasis2\">\n<Basis type=\"BSplineBasis\" index=\"0\">\n<KnotVector degree=\"1\">" +
+      knots + "</KnotVector></Basis>\n<Basis type=\"BSplineBasis\" index=\"1\"><KnotVector degree=\"1\">0 0 1 1" +
+      "</KnotVector></Basis>\n</Basis>\n";
   if (!weights.empty()) basis = "<Basis>" + basis + "<weights>" + weights + "</weights></Basis>\n";
-  return "<?xml version=\"1.0\"?>\n<xml>\n<Geometry type=\"" + std::string(weights.empty() ? "TensorBSpline2" : "TensorNurbs2") +
-         "\" id=\"0\">\n" + basis + "<coefs geoDim=\"" + dimension + "\">" + coefficients + "</coefs>\n</Geometry>\n</xml>\n";
+  return "<?xml version=\"1.0\"?>\n<xml>\n<Geometry type=\"" +
+         std::string(weights.empty() ? "TensorBSpline2" : "TensorNurbs2") + "\" id=\"0\">\n" + basis +
+         "<coefs geoDim=\"" + dimension + "\">" + coefficients + "</coefs>\n</Geometry>\n</xml>\n";
 }
 
 }  // namespace patchproof::test

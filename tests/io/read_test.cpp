@@ -15,8 +15,8 @@ namespace patchproof {
 namespace {
 
 using test::exact;
-using test::read_good;
 using test::rational_model;
+using test::read_good;
 
 // One bilinear patch in each text that can hold decimals.
 std::string with_coordinate(const std::string& format, const std::string& x) {
@@ -146,6 +146,19 @@ TEST(Read, FormatIsRecognisedFromTheContent) {
   }
 }
 
+// Every example of docs/formats.md is read, as the format under whose heading it stands.
+TEST(Read, TheExamplesOfTheDocumentation) {
+  const std::string text = test::bytes_of(std::filesystem::path(PATCHPROOF_SOURCE_DIR) / "docs/formats.md");
+  std::vector<std::string> formats;
+  for (std::size_t begin = text.find("```"); begin != std::string::npos; begin = text.find("```", begin + 3)) {
+    const std::size_t first = text.find('\n', begin) + 1, last = text.find("```", first);
+    ASSERT_NE(last, std::string::npos);
+    formats.push_back(read_good(text.substr(first, last - first), "formats.md").format);
+    begin = last;
+  }
+  EXPECT_EQ(formats, (std::vector<std::string>{"patchproof-model", "newell", "bpt", "bez", "g2", "gismo", "geomdl"}));
+}
+
 struct Expected {
   const char* path;
   std::size_t patches, rational;
@@ -202,9 +215,12 @@ TEST(Read, FilesMadeByOthers) {
     for (const auto& patch : model.patches) rational += patch.is_rational;
     EXPECT_EQ(rational, expected.rational);
     for (const auto& [p, q, count] : expected.degrees)
-      EXPECT_EQ(std::count_if(model.patches.begin(), model.patches.end(), [p = p, q = q](const auto& patch) {
-                  return patch.surface.degree(Direction::u) == p && patch.surface.degree(Direction::v) == q;
-                }), count);
+      EXPECT_EQ(std::count_if(model.patches.begin(), model.patches.end(),
+                              [p = p, q = q](const auto& patch) {
+                                return patch.surface.degree(Direction::u) == p &&
+                                       patch.surface.degree(Direction::v) == q;
+                              }),
+                count);
   }
   for (const char* trimmed : {"boxorthholes", "trimmed_sfs", "trimmed_sphere_no_deg_seg"}) {
     const auto file = read_model((data / "g2_gotools" / (std::string(trimmed) + ".g2")).string());

@@ -45,7 +45,8 @@ class RandomModel {
     return below(2) == 0 ? x : -x;
   }
   Quadratic quadratic() {
-    return below(3) == 0 ? Quadratic(number()) : Quadratic(number(), Rational(1 + below(9)) / Rational(1 + below(5)), 5);
+    return below(3) == 0 ? Quadratic(number())
+                         : Quadratic(number(), Rational(1 + below(9)) / Rational(1 + below(5)), 5);
   }
   int below(int n) { return static_cast<int>(random_() % static_cast<std::uint32_t>(n)); }
 
@@ -55,7 +56,8 @@ class RandomModel {
     out.units = below(2) == 0 ? "mm" : "";
     for (int k = 1 + below(3); k > 0; --k) {
       const KnotVector<T> u = below(2) == 0 ? KnotVector<T>::bezier(1 + below(3)) : knots<T>(1 + below(3));
-      const int form = below(3);  // plain, rational, rational with a weight of zero (not at a corner: the sum is not zero)
+      const int form =
+          below(3);  // plain, rational, rational with a weight of zero (not at a corner: the sum is not zero)
       const KnotVector<T> v = KnotVector<T>::bezier(form == 2 ? 2 : 1 + below(3));
       std::vector<Vec<T, 4>> net;
       bool rational = false;
@@ -64,9 +66,11 @@ class RandomModel {
         rational = rational || !(w == T(1));
         net.push_back({{number(), number(), number(), w}});
       }
-      out.patches.push_back({below(2) == 0 ? "" : "a \"name\" with \\, / and √", BsplinePatch<T, 4>(u, v, net), rational});
+      out.patches.push_back(
+          {below(2) == 0 ? "" : "a \"name\" with \\, / and √", BsplinePatch<T, 4>(u, v, net), rational});
     }
-    out.joins.push_back({below(static_cast<int>(out.patches.size())), 0, EdgeName::v_max, EdgeName::u_min, below(2) == 0});
+    out.joins.push_back(
+        {below(static_cast<int>(out.patches.size())), 0, EdgeName::v_max, EdgeName::u_min, below(2) == 0});
     return out;
   }
 
@@ -108,8 +112,8 @@ TEST(WriteModel, Law1_RandomModelsWithRoots) {
 }
 
 TEST(WriteModel, ShortDecimalsAreWrittenAsNumbers) {
-  const auto file = test::read_good(
-      test::json_patch("[[[1.4,-0.05,1e3],[0,1,\"1/3\"]],[[1,0,1e-30],[1,1,0.1]]]"), "m.json");
+  const auto file =
+      test::read_good(test::json_patch("[[[1.4,-0.05,1e3],[0,1,\"1/3\"]],[[1,0,1e-30],[1,1,0.1]]]"), "m.json");
   const std::string text = write_model_json(test::rational_model(file));
   EXPECT_NE(text.find("[1.4, -0.05, 1000], [0, 1, \"1/3\"]"), std::string::npos) << text;
   EXPECT_EQ(text.find("knots"), std::string::npos);

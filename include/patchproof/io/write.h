@@ -5,7 +5,8 @@
 // where they are Bézier knots on [0, 1]. A rational patch is written with points in space and "weights", or, when a weight
 // is zero, with homogeneous points [w·x, w·y, w·z, w].
 //
-// ENSURES  (1) read_model_text(write_model_json(m)) gives m back: the same names, units, knots, homogeneous points and joins;
+// ENSURES  (1) read_model_text(write_model_json(m)) gives m back: the same names, units, knots, homogeneous points and joins
+//          (names and units in UTF-8; no number with more than kMaxDigits characters as a fraction: the reader refuses it);
 //          (2) the same model gives the same bytes.
 // NEIGHBOURS read.h
 // TEST     tests/io/write_test.cpp checks (1)–(2).
