@@ -45,6 +45,7 @@ Json join_json(const ReportedJoin& j) {
           {"exact", exact},
           {"gap", bound(c.gap)},
           {"angle_degrees", bound(c.angle)},
+          {"tangent_plane_angle_degrees", bound(c.plane_angle)},
           {"orientation", to_string(c.orientation)},
           {"degenerate", degenerate},
           {"rung", c.rung},

@@ -18,13 +18,12 @@ std::string class_text(const Certificate& c) {
   if (!proven(c.c0)) return c.c0.verdict == Verdict::refuted ? "gap" : "undecided";
   const std::string tangent = proven(c.g1)                               ? ""
                               : c.g1.verdict == Verdict::undecided       ? ", G1 undecided"
-                              : c.orientation == Orientation::cusp       ? ", cusp"
-                              : c.orientation == Orientation::mixed      ? ", sides change"
+                              : c.angle.lower >= 180                     ? ", cusp"
                                                                          : ", not G1";
   if (proven(c.c2)) return "C2" + tangent;
   if (proven(c.c1)) return "C1" + tangent;
   if (proven(c.g1)) return "G1";
-  return c.orientation == Orientation::cusp ? "C0, cusp" : c.g1.verdict == Verdict::undecided ? "C0, G1 undecided" : "C0";
+  return c.angle.lower >= 180 ? "C0, cusp" : c.g1.verdict == Verdict::undecided ? "C0, G1 undecided" : "C0";
 }
 
 // Five digits, rounded outward; the JSON has all of them.
@@ -72,7 +71,9 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
     std::string cls = class_text(c);
     if (c.ratio && *c.ratio != "1" && c.ratio->size() <= 12) cls += " ×" + *c.ratio;
     rows.push_back({std::to_string(j->id), side_text(r, j->a), side_text(r, j->b) + (j->reversed ? " ↔" : ""), cls,
-                    bound_text(c.gap), bound_text(c.angle), place_text(c)});
+                    bound_text(c.gap),
+                    bound_text(c.angle) + (c.angle.upper > 90 ? " (planes " + bound_text(c.plane_angle) + ")" : ""),
+                    place_text(c)});
   }
   const auto width = [](const std::string& s) {  // characters, not bytes
     return std::count_if(s.begin(), s.end(), [](char ch) { return (ch & 0xC0) != 0x80; });

@@ -35,7 +35,9 @@ class JoinCertifier {
   Certificate run() {
     certificate_.rung = "interval";
     if (fits_ && interval_rung_refutes_c0(interval_)) {
-      set_gap(bound_gap(interval_, budget_));
+      Budget quick = budget_;
+      quick.nodes = kQuickNodes;
+      set_gap(bound_gap(interval_, quick));
       if (!certificate_.gap.converged) set_gap(bound_gap(exact(), budget_));
       refute_without_c0();
     } else if (std::all_of(exact().begin(), exact().end(), [](const JoinForms<R>& f) { return is_c0(f); })) {
@@ -185,7 +187,7 @@ class JoinCertifier {
       }
     }
     orientation_known_ = true;
-    certificate_.angle.at = witnesses_.place(0, T(0));
+    certificate_.angle.at = certificate_.plane_angle.at = witnesses_.place(0, T(0));
     if (smooth && !cusp) {
       certificate_.g1.verdict = Verdict::proven;
       certificate_.orientation = Orientation::smooth;
@@ -196,22 +198,30 @@ class JoinCertifier {
                        smooth ? "the patches change sides along the edge" : "the patches fold back on each other",
                        witnesses_.find(Quantity::normal_product, cusp_at)};
     certificate_.angle = {180, 180, witnesses_.place(cusp_at.first, cusp_at.second), true};
+    certificate_.plane_angle.at = certificate_.angle.at;  // the planes coincide: exactly 0
   }
 
   void bound_angle() {
+    Budget quick = budget_;
+    quick.nodes = kQuickNodes;
     DeviationBound bound;
     bound.converged = false;
-    if (fits_) bound = interval_rung_bound_angle(interval_, budget_);
+    if (fits_) bound = interval_rung_bound_angle(interval_, Deviation::angle, quick);
     if (bound.converged && bound.upper < 90) {
       certificate_.orientation = Orientation::smooth;
-    } else if (!reduce_normals()) {
-      certificate_.angle = {0, 180, witnesses_.place(0, T(0)), false};
+      certificate_.angle = certificate_.plane_angle = located(bound);
       return;
-    } else {
-      if (!bound.converged || bound.upper >= 180) bound = exact_rung_bound_angle(normals_, budget_);
-      certificate_.orientation = bound.upper < 90 ? Orientation::smooth : orientation_of_normals();
     }
-    certificate_.angle = located(bound);
+    if (!reduce_normals()) {
+      certificate_.angle = {0, 180, witnesses_.place(0, T(0)), false};
+      certificate_.plane_angle = {0, 90, witnesses_.place(0, T(0)), false};
+      return;
+    }
+    if (!bound.converged || bound.upper >= 180) bound = exact_rung_bound_angle(normals_, Deviation::angle, budget_);
+    certificate_.orientation = bound.upper < 90 ? Orientation::smooth : orientation_of_normals();
+    certificate_.angle = certificate_.plane_angle = located(bound);
+    if (!(bound.upper <= 90))
+      certificate_.plane_angle = located(exact_rung_bound_angle(normals_, Deviation::plane_angle, budget_));
   }
 
   // By the sign of n_A · n_B over the whole join: mixed when it is not certainly one sign.
@@ -228,6 +238,9 @@ class JoinCertifier {
     }
     return *sign == Sign::negative ? Orientation::smooth : Orientation::cusp;
   }
+
+  // Bounds that need more subdivisions than this are near the rounding of the intervals: the exact forms take over.
+  static constexpr int kQuickNodes = 400;
 
   std::vector<JoinPiece<T>> pieces_;
   WitnessFinder<T> witnesses_;

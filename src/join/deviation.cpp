@@ -117,6 +117,10 @@ int sign_of_factor(const Coefficients& c) {
 
 double upper_bound(const Coefficients& c, Deviation what) {
   if (what == Deviation::gap) return gap_upper(c);
+  if (what == Deviation::plane_angle) {
+    const bool all_below = std::all_of(c.begin(), c.end(), [](const auto& k) { return k[3].sup() <= 0; });
+    return std::min(angle_upper(c, all_below ? -1 : 1), kStraight);
+  }
   const int sign = sign_of_factor(c);
   const double upper = sign != 0 ? angle_upper(c, sign) : std::max(angle_upper(c, 1), angle_upper(c, -1));
   return upper;
@@ -124,6 +128,8 @@ double upper_bound(const Coefficients& c, Deviation what) {
 
 double lower_bound(const DeviationCoefficient& x, Deviation what) {
   if (what == Deviation::gap) return gap_lower(x);
+  if (what == Deviation::plane_angle)  // at least the smaller of the two angles that the enclosures allow
+    return std::min(pseudo_angle_lower(norm(x), x[3]), pseudo_angle_lower(norm(x), -x[3]));
   if (x[4].inf() > 0) return pseudo_angle_lower(norm(x), x[3]);
   if (x[4].sup() < 0) return pseudo_angle_lower(norm(x), -x[3]);
   return 0;

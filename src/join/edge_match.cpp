@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/join/edge_match.h"
 
-#include <boost/geometry.hpp>
+#include <boost/geometry/algorithms/distance.hpp>
+#include <boost/geometry/algorithms/expand.hpp>
+#include <boost/geometry/algorithms/intersects.hpp>
+#include <boost/geometry/algorithms/make.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -229,6 +233,8 @@ class EdgeMatcher {
     if (last.a - first.a < 1e-6 || std::abs(last.b - first.b) < 1e-6) return;  // they only touch
     if (!curve_a) curve_a.emplace(curve(a));
     if (!curve_b) curve_b.emplace(curve(b));
+    // Near a common vertex every pair of edges is close; what is looked at must be longer than that.
+    if (distance((*curve_a)(first.a), (*curve_a)(last.a)) <= 10 * match_.length) return;
     for (int i = 1; i + 1 < kSamples; ++i) {
       const double s = double(i) / (kSamples - 1);
       const Point3 p = (*curve_a)(first.a + s * (last.a - first.a)), q = (*curve_b)(first.b + s * (last.b - first.b));

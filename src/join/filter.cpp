@@ -30,13 +30,14 @@ bool interval_rung_refutes_c0(const std::vector<JoinForms<Interval>>& forms) {
   return false;
 }
 
-DeviationBound interval_rung_bound_angle(const std::vector<JoinForms<Interval>>& forms, const Budget& budget) {
+DeviationBound interval_rung_bound_angle(const std::vector<JoinForms<Interval>>& forms, Deviation what,
+                                         const Budget& budget) {
   std::vector<DeviationPiece> pieces;
   for (const JoinForms<Interval>& f : forms) {
     const FormVector<Interval> a = normal(f.a), b = normal(f.b);
     pieces.push_back(deviation_piece(cross(b, a), -dot(a, b)));
   }
-  return bound_deviation(pieces, Deviation::angle, budget);
+  return bound_deviation(pieces, what, budget);
 }
 
 }  // namespace patchproof

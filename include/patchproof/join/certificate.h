@@ -39,8 +39,8 @@ struct EnclosedMaximum {
   bool converged = true;  // upper − lower is at most 1 % of upper
 };
 
-// On which side of the common tangent line the second patch lies: smooth (across the edge), cusp (folded back), or
-// changing along the edge.
+// On which side of the edge the second patch lies: smooth (it goes on across the edge, normals less than 90° apart
+// everywhere), cusp (it folds back, more than 90° everywhere), or mixed.
 enum class Orientation { smooth, cusp, mixed, unknown };
 
 // A place or range where the first-order normal of one side vanishes, or where there is no tangent plane.
@@ -53,7 +53,9 @@ struct Degeneracy {
 struct Certificate {
   ExactClass c0, c1, c2, g1;
   std::optional<std::string> ratio;  // exact λ > 0 with y_s = −λ x_s; "1" when C1
-  EnclosedMaximum gap, angle;        // model units; degrees in [0, 180]
+  EnclosedMaximum gap;               // largest distance of paired points, in model units
+  EnclosedMaximum angle;             // largest angle between the oriented normals, degrees in [0, 180]; 180 is a cusp
+  EnclosedMaximum plane_angle;       // largest angle between the tangent planes, degrees in [0, 90], blind to orientation
   Orientation orientation = Orientation::unknown;
   std::vector<Degeneracy> degenerate;
   std::string rung;                  // what decided: "interval", "integer", "quadratic"

@@ -10,6 +10,7 @@
 //     |N|/W ≤ max_j |N_j|/W_j                                       when all W_j > 0
 //     θ ≤ max_j atan2(|C_j|, D_j)                                   when all D_j ≥ 0
 //     θ ≤ max(90°, max_j atan2(r·C_j, D_j)) for any |r| ≤ 1         when all r·C_j ≥ 0
+//     min(θ, 180° − θ) ≤ max_j atan2(|C_j|, |D_j|)                  when all D_j have one sign, else ≤ 90°
 // and the hulls converge quadratically under subdivision.
 //
 // ENSURES  (1) lower ≤ sup ≤ upper;  (2) lower ≤ value at the witness;  (3) when `converged`, upper − lower ≤ 1 % of upper.
@@ -32,7 +33,9 @@ struct DeviationPiece {
   std::vector<DeviationCoefficient> coefficients;
 };
 
-enum class Deviation { gap, angle };
+// plane_angle is the angle between the tangent planes, min(θ, 180° − θ) in [0°, 90°]: what tools report that do not know
+// on which side the patches lie.
+enum class Deviation { gap, angle, plane_angle };
 
 // When to stop working on one join. Every limit ends in an honest `undecided`, never in a guess.
 struct Budget {

@@ -32,16 +32,17 @@ DeviationBound bound_gap(const std::vector<JoinForms<R>>& forms, const Budget& b
 }
 
 // First-order normals as they are: not converged where one of them vanishes.
-DeviationBound interval_rung_bound_angle(const std::vector<JoinForms<Interval>>& forms, const Budget& budget);
+DeviationBound interval_rung_bound_angle(const std::vector<JoinForms<Interval>>& forms, Deviation what,
+                                         const Budget& budget);
 
 // Reduced normals: converges wherever limit normals exist. REQUIRES all normals found.
 template <ExactRing R>
 DeviationBound exact_rung_bound_angle(const std::vector<std::pair<ReducedNormal<R>, ReducedNormal<R>>>& normals,
-                                      const Budget& budget) {
+                                      Deviation what, const Budget& budget) {
   std::vector<DeviationPiece> pieces;
   for (const auto& [a, b] : normals)
     pieces.push_back(deviation_piece(cross(b.n, a.n), -dot(a.n, b.n), a.factor * b.factor));
-  return bound_deviation(pieces, Deviation::angle, budget);
+  return bound_deviation(pieces, what, budget);
 }
 
 }  // namespace patchproof

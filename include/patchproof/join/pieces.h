@@ -16,6 +16,7 @@
 #include "patchproof/join/join.h"
 #include "patchproof/join/join_polynomials.h"
 #include "patchproof/scalar/interval.h"
+#include "patchproof/spline/reparametrize.h"
 
 namespace patchproof {
 
@@ -86,13 +87,7 @@ std::vector<JoinPiece<T>> join_pieces(const BsplinePatch<T, 4>& a, const Bspline
         piece.b[k] = reversed ? bezier_coefficients(rows_b[k], piece.b_end, piece.b_begin)
                               : bezier_coefficients(rows_b[k], piece.b_begin, piece.b_end);
         if (reversed) std::reverse(piece.b[k].begin(), piece.b[k].end());
-        if (pairing.kind == PairingKind::rational_linear) {
-          T power(1);
-          for (Vec<T, 4>& p : piece.b[k]) {
-            p = power * p;
-            power = power * pairing.ratio;
-          }
-        }
+        if (pairing.kind == PairingKind::rational_linear) piece.b[k] = moebius(std::move(piece.b[k]), pairing.ratio);
       }
       pieces.push_back(std::move(piece));
     }

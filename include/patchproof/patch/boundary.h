@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "patchproof/patch/bspline_patch.h"
+#include "patchproof/spline/bspline_basis.h"
 #include "patchproof/spline/curve.h"
 
 namespace patchproof {
@@ -51,38 +52,6 @@ std::vector<Vec<T, N>> bezier_coefficients(const BsplineCurve<T, N, K>& curve, c
 
 // ---------------------------------------------------------------------------------------------------------------------
 
-namespace detail {
-
-// The control points that matter on `span`, and the same for all derivatives: row k holds the p + 1 − k coefficients of
-// the k-th derivative with respect to the reduced knots, evaluated by de Boor's recursion at the end.
-template <OrderedField K>
-std::vector<std::vector<K>> derivative_weights(const KnotVector<K>& knots, int span, const K& t, int order) {
-  // weights[k][i]: contribution of control point span − p + i to the k-th derivative at t. Computed by running the
-  // derivative and de Boor recursions on unit vectors, which needs no formula of its own.
-  const int p = knots.degree();
-  std::vector<std::vector<K>> weights(order + 1, std::vector<K>(p + 1, K(0)));
-  for (int unit = 0; unit <= p; ++unit) {
-    std::vector<K> d(p + 1, K(0));
-    d[unit] = K(1);
-    for (int k = 0; k <= order && k <= p; ++k) {
-      const int q = p - k;  // degree of the k-th derivative; d[0…q] are its coefficients on this span
-      std::vector<K> e(d.begin(), d.begin() + q + 1);
-      for (int r = 1; r <= q; ++r)
-        for (int j = q; j >= r; --j) {
-          const K &lower = knots[span - q + j], &upper = knots[span + j - r + 1];
-          const K alpha = (t - lower) / (upper - lower);
-          e[j] = e[j - 1] + alpha * (e[j] - e[j - 1]);
-        }
-      weights[k][unit] = e[q];
-      if (k == p) break;
-      for (int j = 0; j < q; ++j) d[j] = K(q) * (d[j + 1] - d[j]) / (knots[span + 1 + j] - knots[span - q + 1 + j]);
-    }
-  }
-  return weights;
-}
-
-}  // namespace detail
-
 template <Ring T, std::size_t N, OrderedField K>
 std::vector<BsplineCurve<T, N, K>> cross_boundary_rows(const BsplinePatch<T, N, K>& patch, const IsoLine<K>& line,
                                                        int order) {
@@ -92,7 +61,7 @@ std::vector<BsplineCurve<T, N, K>> cross_boundary_rows(const BsplinePatch<T, N, 
   PATCHPROOF_REQUIRES(line.side == Side::right ? line.value < across.domain_end() : across.domain_begin() < line.value,
                       "cross_boundary_rows: the patch has nothing on this side of the line");
   const int p = across.degree(), span = across.find_span(line.value, line.side);
-  const auto weights = detail::derivative_weights(across, span, line.value, order);
+  const auto weights = basis_derivatives_in_span<K>(across, span, line.value, order);
   const auto point = [&](int across_index, int along_index) -> const Vec<T, N>& {
     return line.constant == Direction::u ? patch.point(across_index, along_index)
                                          : patch.point(along_index, across_index);
