@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// How fast joins are decided. `./dev bench` runs everything; ratios are only meaningful within one run.
+//
+// Random bicubic joins with dyadic coordinates of 26 bits, exactly G1 by construction (ratio 3/2):
+//   g1_decision/integer   determinant, regularity and side on cleared integers: the rung that certify uses
+//   g1_decision/rational  the same templates on mpq: what clearing the denominators saves
+//   certify_join          everything: classes, witnesses, bounds
+// and the same for rational joins (homogeneous reflection, weights of 10 bits). Models: one whole certify run per
+// iteration, reading included.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <random>
+
+#include "patchproof/io/read.h"
+#include "patchproof/io/report.h"
+#include "patchproof/join/certify.h"
+#include "patchproof/join/continuity.h"
+#include "patchproof/join/pieces.h"
+
+namespace {
+
+using namespace patchproof;
+using Patch = BsplinePatch<Rational, 4>;
+
+struct TwoPatches {
+  Patch a, b;
+  Join<Rational> join;
+};
+
+// A: u in [0, 1] with its edge u_max; B with its edge u_min; the row behind the edge is reflected, scaled by 3/2.
+TwoPatches random_join(std::mt19937& random, bool rational) {
+  std::uniform_int_distribution<int> coordinate(-(1 << 25), 1 << 25), weight(1 << 9, 1 << 10);
+  const auto knots = KnotVector<Rational>::bezier(3);
+  std::vector<Vec<Rational, 4>> a(16), b(16);
+  for (int i = 0; i < 16; ++i) {
+    const Rational w = rational ? Rational(weight(random)) / Rational(1 << 10) : Rational(1);
+    for (int c = 0; c < 3; ++c) a[i][c] = Rational(coordinate(random)) / Rational(1 << 20) * w;
+    a[i][3] = w;
+    b[i] = a[i];
+  }
+  const Rational ratio = rational ? Rational(1) : Rational(3) / Rational(2);
+  for (int j = 0; j < 4; ++j) {
+    b[j] = a[12 + j];
+    b[4 + j] = a[12 + j] + ratio * (a[12 + j] - a[8 + j]);
+  }
+  TwoPatches out{Patch(knots, knots, a), Patch(knots, knots, b), {}};
+  out.join.line_a = edge_line(out.a, EdgeName::u_max);
+  out.join.line_b = edge_line(out.b, EdgeName::u_min);
+  out.join.pairing = {PairingKind::identity, {Rational(0), Rational(1)}, {Rational(0), Rational(1)}, Rational(1)};
+  return out;
+}
+
+std::vector<TwoPatches> random_joins(bool rational) {
+  std::mt19937 random(1);
+  std::vector<TwoPatches> joins;
+  for (int i = 0; i < 256; ++i) joins.push_back(random_join(random, rational));
+  return joins;
+}
+
+// Is the join G1? Rows to verdict: forms, both normals, determinant, side.
+template <Ring R>
+bool is_g1(const JoinPiece<Rational>& piece) {
+  const JoinForms<R> forms = join_forms<R>(piece);
+  const ReducedNormal<R> a = reduce_normal(forms.a), b = reduce_normal(forms.b);
+  if (!is_c0(forms) || !a.found() || !b.found() || !is_coplanar(forms, a, b)) return false;
+  return *scalar_traits<R>::sign(dot(a.n, b.n)(R(0))) == Sign::negative;
+}
+
+template <Ring R>
+void g1_decision(benchmark::State& state, bool rational) {
+  std::vector<JoinPiece<Rational>> pieces;
+  for (const TwoPatches& t : random_joins(rational)) pieces.push_back(join_pieces(t.a, t.b, t.join)[0]);
+  const RoundingGuard guard;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    if (!is_g1<R>(pieces[i++ % pieces.size()])) state.SkipWithError("a G1 join was refused");
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
+void certify_one(benchmark::State& state, bool rational) {
+  const std::vector<TwoPatches> joins = random_joins(rational);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const TwoPatches& t = joins[i++ % joins.size()];
+    if (certify_join(t.a, t.b, t.join).g1.verdict != Verdict::proven) state.SkipWithError("a G1 join was refused");
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
+void certify_file(benchmark::State& state, const std::string& path) {
+  if (!std::filesystem::exists(path)) {
+    state.SkipWithError("the model is not here");
+    return;
+  }
+  std::size_t joins = 0;
+  CertifyOptions options;
+  options.jobs = 1;
+  for (auto _ : state) {
+    const Result<ModelFile> file = read_model(path);
+    if (!file) {
+      state.SkipWithError(file.error().text().c_str());
+      return;
+    }
+    joins += certify_model(*file, options).joins.size();
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(joins));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string source = PATCHPROOF_SOURCE_DIR;
+  for (const bool rational : {false, true}) {
+    const std::string kind = rational ? "/rational_bicubic" : "/polynomial_bicubic";
+    benchmark::RegisterBenchmark(("g1_decision/integer" + kind).c_str(), g1_decision<Integer>, rational);
+    benchmark::RegisterBenchmark(("g1_decision/rational" + kind).c_str(), g1_decision<Rational>, rational);
+    benchmark::RegisterBenchmark(("certify_join" + kind).c_str(), certify_one, rational);
+  }
+  benchmark::RegisterBenchmark("certify_model/cup", certify_file, source + "/examples/cup.json")
+      ->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("certify_model/newell_teapot", certify_file, source + "/../shared/data/newell/teapot")
+      ->Unit(benchmark::kMillisecond);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
