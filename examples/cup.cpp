@@ -103,18 +103,17 @@ NamedModel cup() {
   for (int q = 0; q < 4; ++q) patches.push_back(quarter_turn("rim", rim, q));
   for (int q = 0; q < 4; ++q) patches.push_back(inside(q));
 
-  const std::vector<std::vector<Point2>> spines{
-      {{{33.5_q, 60_q}}, {{41.5_q, 62_q}}, {{50_q, 62_q}}, {{55_q, 56_q}}},
-      {{{55_q, 56_q}}, {{60_q, 50_q}}, {{60_q, 40_q}}, {{53_q, 32_q}}},
-      {{{53_q, 32_q}}, {{46_q, 24_q}}, {{34_q, 20_q}}, {{25_q, 20_q}}}};
-  const std::vector<std::vector<Point2>> ups{
-      {{{0_q, 1_q}}, {{0.2_q, 1.1_q}}, {{0.5_q, 0.9_q}}, {{0.8_q, 0.6_q}}},
-      {{{0.8_q, 0.6_q}}, {{1.1_q, 0.3_q}}, {{1.1_q, -0.3_q}}, {{0.8_q, -0.6_q}}},
-      {{{0.8_q, -0.6_q}}, {{0.5_q, -0.9_q}}, {{0.2_q, -1.1_q}}, {{0_q, -1_q}}}};
+  const std::vector<std::vector<Point2>> spines{{{{33.5_q, 60_q}}, {{41.5_q, 62_q}}, {{50_q, 62_q}}, {{55_q, 56_q}}},
+                                                {{{55_q, 56_q}}, {{60_q, 50_q}}, {{60_q, 40_q}}, {{53_q, 32_q}}},
+                                                {{{53_q, 32_q}}, {{46_q, 24_q}}, {{34_q, 20_q}}, {{25_q, 20_q}}}};
+  const std::vector<std::vector<Point2>> ups{{{{0_q, 1_q}}, {{0.2_q, 1.1_q}}, {{0.5_q, 0.9_q}}, {{0.8_q, 0.6_q}}},
+                                             {{{0.8_q, 0.6_q}}, {{1.1_q, 0.3_q}}, {{1.1_q, -0.3_q}}, {{0.8_q, -0.6_q}}},
+                                             {{{0.8_q, -0.6_q}}, {{0.5_q, -0.9_q}}, {{0.2_q, -1.1_q}}, {{0_q, -1_q}}}};
   for (int k = 0; k < 3; ++k)
     for (const int side : {-1, 1}) {
       patches.push_back(half_tube("handle" + std::to_string(k + 1), spines[k], ups[k], side));
-      if (k == 2) patches.back().surface = apply(translation<Rational>({{0.00002_q, 0_q, 0_q}}), patches.back().surface);
+      if (k == 2)
+        patches.back().surface = apply(translation<Rational>({{0.00002_q, 0_q, 0_q}}), patches.back().surface);
     }
   return {"cup.json", write_model_json(model)};
 }

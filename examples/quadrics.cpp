@@ -60,7 +60,8 @@ KnotVector<T> circle_knots() {
 
 // u along the profile, v around.
 template <class T>
-ModelPatch<T> revolved(std::string name, KnotVector<T> u, const Curve<T>& profile, KnotVector<T> v, const Curve<T>& turn) {
+ModelPatch<T> revolved(std::string name, KnotVector<T> u, const Curve<T>& profile, KnotVector<T> v,
+                       const Curve<T>& turn) {
   std::vector<Vec<T, 4>> net;
   for (const Vec<T, 3>& p : profile)
     for (const Vec<T, 3>& c : turn) net.push_back({{p[0] * c[0], p[0] * c[1], p[1] * c[2], p[2] * c[2]}});

@@ -21,7 +21,9 @@ NamedModel model(const std::string& name, Patch a, Patch b, bool declare_join = 
   return {"seven/" + name + ".json", write_model_json(out)};
 }
 
-Patch flat() { return bezier_model_patch("a", {{{{-1_q, 0_q, 0_q}}, {{-1_q, 1_q, 0_q}}}, {{{0_q, 0_q, 0_q}}, {{0_q, 1_q, 0_q}}}}); }
+Patch flat() {
+  return bezier_model_patch("a", {{{{-1_q, 0_q, 0_q}}, {{-1_q, 1_q, 0_q}}}, {{{0_q, 0_q, 0_q}}, {{0_q, 1_q, 0_q}}}});
+}
 
 // (x, y, f(y) x) for x in [0, 1], where f is the quadratic spline with these coefficients: the kink at y is arctan f(y).
 Patch wing(const Knots& knots, const std::vector<Rational>& f) {
@@ -49,9 +51,10 @@ NamedModel kink_between_samples() {
 
 // B is the square [0, 1] × [0, 1] at z = 1/2.
 NamedModel parallel_gap() {
-  return model("parallel_gap", flat(),
-               bezier_model_patch("b", {{{{0_q, 0_q, 0.5_q}}, {{0_q, 1_q, 0.5_q}}}, {{{1_q, 0_q, 0.5_q}}, {{1_q, 1_q, 0.5_q}}}}),
-               true);
+  return model(
+      "parallel_gap", flat(),
+      bezier_model_patch("b", {{{{0_q, 0_q, 0.5_q}}, {{0_q, 1_q, 0.5_q}}}, {{{1_q, 0_q, 0.5_q}}, {{1_q, 1_q, 0.5_q}}}}),
+      true);
 }
 
 // B = (λ(y) s, y, s²): the cross-boundary derivative is λ times that of A, λ = 1 for y ≤ 0.1 and 2 at y = 1.
@@ -71,10 +74,17 @@ NamedModel c1_at_first_sample() {
 // One bicubic patch, cut at u = 2/5 by de Casteljau's algorithm, then mapped. The parts keep their parameters.
 NamedModel split(const std::string& name, const AffineMap<Rational>& map) {
   const Patch whole = bezier_model_patch(
-      "whole", {{{{0_q, 0_q, 0.13_q}}, {{0.07_q, 0.31_q, 0.44_q}}, {{-0.05_q, 0.71_q, 0.25_q}}, {{0.02_q, 1.03_q, -0.11_q}}},
-                {{{0.36_q, -0.08_q, 0.57_q}}, {{0.29_q, 0.37_q, 0.91_q}}, {{0.41_q, 0.63_q, 0.78_q}}, {{0.33_q, 0.95_q, 0.22_q}}},
-                {{{0.61_q, 0.05_q, 0.38_q}}, {{0.72_q, 0.28_q, 0.66_q}}, {{0.58_q, 0.74_q, 0.83_q}}, {{0.69_q, 1.01_q, 0.17_q}}},
-                {{{1.04_q, -0.03_q, -0.19_q}}, {{0.97_q, 0.35_q, 0.21_q}}, {{1.02_q, 0.66_q, 0.14_q}}, {{0.99_q, 0.98_q, 0.09_q}}}});
+      "whole",
+      {{{{0_q, 0_q, 0.13_q}}, {{0.07_q, 0.31_q, 0.44_q}}, {{-0.05_q, 0.71_q, 0.25_q}}, {{0.02_q, 1.03_q, -0.11_q}}},
+       {{{0.36_q, -0.08_q, 0.57_q}},
+        {{0.29_q, 0.37_q, 0.91_q}},
+        {{0.41_q, 0.63_q, 0.78_q}},
+        {{0.33_q, 0.95_q, 0.22_q}}},
+       {{{0.61_q, 0.05_q, 0.38_q}}, {{0.72_q, 0.28_q, 0.66_q}}, {{0.58_q, 0.74_q, 0.83_q}}, {{0.69_q, 1.01_q, 0.17_q}}},
+       {{{1.04_q, -0.03_q, -0.19_q}},
+        {{0.97_q, 0.35_q, 0.21_q}},
+        {{1.02_q, 0.66_q, 0.14_q}},
+        {{0.99_q, 0.98_q, 0.09_q}}}});
   const auto [a, b] = patchproof::split(whole.surface, Direction::u, 0.4_q);
   return model(name, {"a", apply(map, a), false}, {"b", apply(map, b), false});
 }
@@ -113,16 +123,19 @@ NamedModel perpendicular_cylinders() {
 NamedModel plane_and_cylinder() {
   const Rational reach = 1_q / 1.0025_q;
   return model("plane_and_cylinder",
-               bezier_model_patch("a", {{{{-1_q, -reach, 0_q}}, {{-1_q, reach, 0_q}}}, {{{0_q, -reach, 0_q}}, {{0_q, reach, 0_q}}}}),
+               bezier_model_patch(
+                   "a", {{{{-1_q, -reach, 0_q}}, {{-1_q, reach, 0_q}}}, {{{0_q, -reach, 0_q}}, {{0_q, reach, 0_q}}}}),
                cylinder_along_y());
 }
 
 // Both sheets lie over x ≥ 0 and are tangent to z = 0 along the edge: the angle between the outward sides is 180°.
 NamedModel fold_back_cusp() {
-  return model("fold_back_cusp",
-               bezier_model_patch("a", {{{{1_q, 0_q, 0_q}}, {{1_q, 1_q, 0_q}}}, {{{0_q, 0_q, 0_q}}, {{0_q, 1_q, 0_q}}}}),
-               bezier_model_patch("b", {{{{0_q, 0_q, 0_q}}, {{0_q, 1_q, 0_q}}}, {{{0.5_q, 0_q, 0_q}}, {{0.5_q, 1_q, 0_q}}},
-                                        {{{1_q, 0_q, 1_q}}, {{1_q, 1_q, 1_q}}}}));
+  return model(
+      "fold_back_cusp",
+      bezier_model_patch("a", {{{{1_q, 0_q, 0_q}}, {{1_q, 1_q, 0_q}}}, {{{0_q, 0_q, 0_q}}, {{0_q, 1_q, 0_q}}}}),
+      bezier_model_patch("b", {{{{0_q, 0_q, 0_q}}, {{0_q, 1_q, 0_q}}},
+                               {{{0.5_q, 0_q, 0_q}}, {{0.5_q, 1_q, 0_q}}},
+                               {{{1_q, 0_q, 1_q}}, {{1_q, 1_q, 1_q}}}}));
 }
 
 }  // namespace
@@ -130,10 +143,16 @@ NamedModel fold_back_cusp() {
 std::vector<NamedModel> seven_cases() {
   const auto moved = [](const Rational& by) { return translation<Rational>({{by, by, by}}); };
   const Rational small = 0.001_q;
-  return {kink_at_end(), kink_between_samples(), parallel_gap(), c1_at_first_sample(),
-          split("split_moved_1e3", moved(1000_q)), split("split_moved_1e6", moved(1000000_q)),
-          split("split_scaled_1e-3", scaling<Rational>({{small, small, small}})), perpendicular_cylinders(),
-          plane_and_cylinder(), fold_back_cusp()};
+  return {kink_at_end(),
+          kink_between_samples(),
+          parallel_gap(),
+          c1_at_first_sample(),
+          split("split_moved_1e3", moved(1000_q)),
+          split("split_moved_1e6", moved(1000000_q)),
+          split("split_scaled_1e-3", scaling<Rational>({{small, small, small}})),
+          perpendicular_cylinders(),
+          plane_and_cylinder(),
+          fold_back_cusp()};
 }
 
 }  // namespace patchproof::examples
