@@ -3,7 +3,7 @@
 //
 // ENSURES  (1) the roots of f in the open interval (0, 1), multiple ones counted once, correspond one to one to the
 //          intervals returned, in growing order; [a, a] is the exact root a, in (a, b) with a < b lies one root and neither
-//          end is a root;  (2) every interval is narrower than `width`.
+//          end is a root, except that 0 and 1 may be;  (2) every interval is narrower than `width`.
 // SCALARS  F: ExactField.
 // SOURCE   Descartes' rule of signs on Bernstein coefficients: G. Collins, A. Akritas, SYMSAC 1976; square-free first, so
 //          the subdivision ends.
