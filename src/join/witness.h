@@ -66,7 +66,10 @@ class WitnessFinder {
   }
 
   std::optional<Witness> try_at(Quantity quantity, int piece, const T& t) const {
-    const Jet x = affine_jet(pieces_[piece].a, t), y = affine_jet(pieces_[piece].b, t);
+    Jet x = affine_jet(pieces_[piece].a, t), y = affine_jet(pieces_[piece].b, t);
+    // x_t, y_t by the parameter of line A, so that a reader needs nothing but the patches and the pairing.
+    const T speed = T(1) / (pieces_[piece].a_end - pieces_[piece].a_begin);
+    x.xt = speed * x.xt, y.xt = speed * y.xt;
     std::vector<T> values;
     std::string name;
     const auto vector = [&](const char* what, const Vec<T, 3>& v) {

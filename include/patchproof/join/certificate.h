@@ -20,7 +20,9 @@ struct Place {
 
 // Exact numbers that refute a class: at these parameters, this quantity is not zero (or has the wrong sign).
 struct Witness {
-  std::string quantity;                // "x - y", "x_s + y_s", "det(x_t, x_s, y_s)", "n_A . n_B"
+  // "x - y", "x_s + y_s", "x_ss - y_ss", "det(x_t, x_s, y_s)", "(x_t × x_s) · (y_t × y_s)": t is the parameter of line A
+  // (y_t through the pairing), s the parameter distance into each patch.
+  std::string quantity;
   std::array<std::string, 2> a, b;     // exact (u, v) on patch A and patch B
   std::vector<std::string> values;     // exact components
 };
