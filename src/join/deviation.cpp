@@ -2,6 +2,7 @@
 #include "patchproof/join/deviation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <queue>
 
@@ -34,11 +35,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kStraight = 1, kHalfTurn = 2;
 
 Interval norm(const DeviationCoefficient& c) {
-  return sqrt(square(c[0]) + square(c[1]) + square(c[2]));
+  constexpr double kSmall = 0x1p-400, kLarge = 0x1p400;  // between them no square leaves the range of doubles
+  double size = 0;
+  for (int k = 0; k < 3; ++k) size = std::max({size, c[k].sup(), -c[k].inf()});
+  if (size == 0 || size == kInfinity || (kSmall < size && size < kLarge))
+    return sqrt(square(c[0]) + square(c[1]) + square(c[2]));
+  const int exponent = std::ilogb(size);
+  const auto scaled = [&](int k) { return scale_by_power_of_two(c[k], -exponent); };
+  return scale_by_power_of_two(sqrt(square(scaled(0)) + square(scaled(1)) + square(scaled(2))), exponent);
 }
 
-// y/(x + y) for non-negative x, y: [lower end at (y.inf, x), upper end at (y.sup, x)].
+// Encloses y/(x + y) for non-negative x, y, not both zero.
 Interval fraction(double y, double x) {
+  if (!(x < kInfinity && y < kInfinity)) return Interval(0.0, 1.0);
   const Interval yi(y), xi(x);
   return yi / (xi + yi);
 }
@@ -197,7 +206,8 @@ DeviationBound bound_deviation(const std::vector<DeviationPiece>& pieces, Deviat
   }
   for (std::size_t i = 0; i < pieces.size(); ++i) push(pieces[i].coefficients, static_cast<int>(i), 0, 0, 1);
   int nodes = 0;
-  while (!queue.empty() && queue.top().upper - lower > kRelativeWidth * queue.top().upper) {
+  const auto too_wide = [&](double upper) { return upper == kInfinity || upper - lower > kRelativeWidth * upper; };
+  while (!queue.empty() && too_wide(queue.top().upper)) {
     if (++nodes > budget.nodes) break;
     if (nodes % 64 == 0 && std::chrono::steady_clock::now() > budget.deadline) break;
     const Node node = queue.top();

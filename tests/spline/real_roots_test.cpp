@@ -13,6 +13,13 @@ Rational q(int a, int b) { return Rational(a) / Rational(b); }
 // b t − a: one root at a/b.
 Form root_at(const Rational& r) { return Form({Rational(-r), Rational(1 - r)}); }
 
+// Places in (0, 1), more than the factors below have roots.
+std::vector<Rational> spread_out() {
+  std::vector<Rational> out;
+  for (int i = 1; i < 40; ++i) out.push_back(q(i, 40));
+  return out;
+}
+
 // The law itself: one interval per known root, in order, each holding exactly its root.
 void expect_roots(const Form& f, std::vector<Rational> roots, const Rational& width) {
   const auto found = isolate_roots(f, width);
@@ -112,7 +119,33 @@ TEST(RealRootsLaws, Law2_Width) {
   }
 }
 
+TEST(RealRootsLaws, Law3_OddPart) {
+  const std::vector<Rational> roots{q(-1, 5), 0, q(1, 7), q(1, 3), q(1, 2), q(999, 1000), 1, 2};
+  RandomRationals random;
+  for (int round = 0; round < 40; ++round) {
+    Form f = Form::constant(random.integer(0, 1) == 0 ? -3 : q(1, 9));
+    std::vector<Rational> changes, places = spread_out();
+    for (const Rational& r : roots) {
+      const int multiplicity = random.integer(0, 5);
+      for (int k = 0; k < multiplicity; ++k) f = f * root_at(r);
+      if (multiplicity % 2 == 1 && r > 0 && r < 1) changes.push_back(r);
+    }
+    for (int k = random.integer(0, 3); k > 0; --k) f = f * Form({1, 1});
+    const Form odd = odd_part(f);
+    expect_roots(odd, changes, q(1, 64));
+    EXPECT_EQ(gcd(odd, odd.derivative()).degree(), 0);
+    for (const Rational& t : places) {
+      if (f(t) == 0) continue;
+      EXPECT_EQ(f(t) > 0, odd(t) > 0) << t;
+      EXPECT_NE(odd(t), 0);
+    }
+  }
+  EXPECT_EQ(odd_part(Form::constant(-7)).degree(), 0);
+  EXPECT_LT(odd_part(Form::constant(-7))[0], 0);
+}
+
 TEST(RealRootsLaws, ZeroIsABrokenContract) {
+  EXPECT_THROW(odd_part(Form({0, 0, 0})), contract_error);
   EXPECT_THROW(isolate_roots(Form({0, 0, 0}), Rational(1)), contract_error);
 }
 

@@ -96,8 +96,10 @@ DeviationPiece deviation_piece(const FormVector<R>& numerator, const BinaryForm<
       scaled[k].push_back(x);
     }
   }
-  // D (W) is brought to size one and N (C) scaled along, so that only the quotient may leave the range of doubles.
-  const long exponent = detail::common_exponent(scaled[3]), sign_exponent = detail::common_exponent(scaled[4]);
+  // N and W (C and D) are scaled together, the larger to size one, so that only the quotient may leave the range of doubles.
+  std::vector<ScaledInterval> quotient;
+  for (int k = 0; k < 4; ++k) quotient.insert(quotient.end(), scaled[k].begin(), scaled[k].end());
+  const long exponent = detail::common_exponent(quotient), sign_exponent = detail::common_exponent(scaled[4]);
   DeviationPiece piece;
   piece.coefficients.resize(degree + 1);
   for (int k = 0; k < 5; ++k) {

@@ -40,8 +40,12 @@ template <ExactRing R>
 DeviationBound exact_rung_bound_angle(const std::vector<std::pair<ReducedNormal<R>, ReducedNormal<R>>>& normals,
                                       Deviation what, const Budget& budget) {
   std::vector<DeviationPiece> pieces;
-  for (const auto& [a, b] : normals)
-    pieces.push_back(deviation_piece(cross(b.n, a.n), -dot(a.n, b.n), a.factor * b.factor));
+  for (const auto& [a, b] : normals) {
+    BinaryForm<R> factor = a.factor * b.factor;
+    // Zeros without a change of sign would leave the orientation open however often the piece is halved.
+    if (factor.degree() > 0) factor = detail::to_ring<R>({odd_part(over_field(factor)), {}, {}})[0];
+    pieces.push_back(deviation_piece(cross(b.n, a.n), -dot(a.n, b.n), factor));
+  }
   return bound_deviation(pieces, what, budget);
 }
 

@@ -9,7 +9,7 @@
 //                        given y = x:  y_s = −λ x_s  iff  Q = −λ P  (C1 as given: λ = 1)
 //     second_difference  (X w_Y)-terms of order 2 of X(−s,t) w_Y(s,t) − Y(s,t) w_X(−s,t):  C2 iff C1 and it vanishes
 //     normal             n_X = w X_t × X_s + w_s X × X_t − w_t X × X_s  =  w³ x_t × x_s
-//     coplanarity        det[X, X_t, X_s, Y_s], zero iff (given y = x and n_X ≠ 0) Y_s lies in A's tangent plane
+//     coplanarity        det[X, X_t, X_s, Y_s] (rows w, x, y, z), zero iff (given y = x and n_X ≠ 0) Y_s lies in A's tangent plane
 // Normals of both sides use the same column order with both s pointing inward, so a smooth join has n_X and n_Y opposed.
 //
 // ENSURES  (1) each form equals the expression above, for every R;  (2) a polynomial side has a weight form of degree 0, so

@@ -3,7 +3,8 @@
 //
 // ENSURES  (1) the roots of f in the open interval (0, 1), multiple ones counted once, correspond one to one to the
 //          intervals returned, in growing order; [a, a] is the exact root a, in (a, b) with a < b lies one root and neither
-//          end is a root, except that 0 and 1 may be;  (2) every interval is narrower than `width`.
+//          end is a root, except that 0 and 1 may be;  (2) every interval is narrower than `width`;
+//          (3) odd_part(f) has f's sign wherever f is not zero in (0, 1), and only simple roots: those where f changes sign.
 // SCALARS  F: ExactField.
 // SOURCE   Descartes' rule of signs on Bernstein coefficients: G. Collins, A. Akritas, SYMSAC 1976; square-free first, so
 //          the subdivision ends.
@@ -19,6 +20,10 @@ namespace patchproof {
 // REQUIRES f is not the zero polynomial.
 template <ExactField F>
 std::vector<std::pair<F, F>> isolate_roots(const BinaryForm<F>& f, const F& width);
+
+// The product of f's factors of odd multiplicity, up to a positive constant. REQUIRES f is not the zero polynomial.
+template <ExactField F>
+BinaryForm<F> odd_part(const BinaryForm<F>& f);
 
 // ---------------------------------------------------------------------------------------------------------------------
 
@@ -86,6 +91,21 @@ std::vector<std::pair<F, F>> isolate_roots(const BinaryForm<F>& f, const F& widt
   std::vector<std::pair<F, F>> roots;
   detail::isolate(std::move(b), F(0), F(1), width, roots);
   return roots;
+}
+
+template <ExactField F>
+BinaryForm<F> odd_part(const BinaryForm<F>& f) {
+  const BinaryForm<F> g = strip_ends(f, end_orders(f));
+  // Of the factors of multiplicity m or more, each once, and of what they still divide: split off those of exactly m.
+  BinaryForm<F> multiple = gcd(g, g.derivative()), simple = divide_exactly(g, multiple),
+                odd = BinaryForm<F>::constant(F(1));
+  for (int m = 1; simple.degree() > 0; ++m) {
+    const BinaryForm<F> higher = gcd(simple, multiple);
+    if (m % 2 == 1) odd = odd * divide_exactly(simple, higher);
+    multiple = divide_exactly(multiple, higher);
+    simple = higher;
+  }
+  return *scalar_traits<F>::sign(g[0]) == *scalar_traits<F>::sign(odd[0]) ? odd : -odd;
 }
 
 }  // namespace patchproof
