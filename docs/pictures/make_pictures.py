@@ -58,7 +58,7 @@ axes.axhline(upper, color="#27ae60", linestyle="--", label=f"certified: between 
              f"{upper:.4f}° over the whole edge")
 axes.set_xlabel("parameter along the edge")
 axes.set_ylabel("degrees")
-axes.set_ylim(-4, 100)
+axes.set_ylim(-4, 135)
 axes.legend(loc="upper right", frameon=False)
 figure.tight_layout()
 figure.savefig(here / "kink_between_samples.svg", metadata={"Date": None})

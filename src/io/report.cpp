@@ -8,7 +8,8 @@ namespace {
 
 template <ExactField T>
 ReportedSide reported_side(const BsplinePatch<T, 4>& patch, int index, const IsoLine<T>& line, const std::vector<T>& nodes) {
-  ReportedSide side{index, "", nearest_double(nodes.front()), nearest_double(nodes.back())};
+  ReportedSide side{index, "", nearest_double(nodes.front()), nearest_double(nodes.back()), to_text(nodes.front()),
+                    to_text(nodes.back())};
   for (const EdgeName edge : {EdgeName::u_min, EdgeName::u_max, EdgeName::v_min, EdgeName::v_max}) {
     const IsoLine<T> candidate = edge_line(patch, edge);
     if (candidate.constant == line.constant && candidate.value == line.value && candidate.side == line.side)
@@ -69,7 +70,9 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
     out.b = reported_side(*patches[join.patch_b], join.patch_b, join.line_b, join.pairing.b);
     out.reversed = join.pairing.reversed();
     out.pairing = join.pairing.kind;
-    out.pairing_nodes = static_cast<int>(join.pairing.a.size());
+    if (join.pairing.kind == PairingKind::piecewise_linear)
+      for (std::size_t k = 0; k < join.pairing.a.size(); ++k)
+        out.pairing_nodes.push_back({to_text(join.pairing.a[k]), to_text(join.pairing.b[k])});
     if (join.pairing.kind == PairingKind::rational_linear) out.pairing_ratio = to_text(join.pairing.ratio);
     out.certificate = std::move(certificates[i]);
     out.judgement = judge(out.certificate, options.request);

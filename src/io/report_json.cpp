@@ -19,13 +19,20 @@ Json bound(const EnclosedMaximum& m) {
   return {{"lower", number(m.lower)}, {"upper", number(m.upper)}, {"at", place(m.at)}, {"tight", m.converged}};
 }
 
-Json side(const ReportedSide& s) { return {{"patch", s.patch}, {"edge", s.edge}, {"range", {s.begin, s.end}}}; }
+Json side(const Report& r, const ReportedSide& s) {
+  return {{"patch", s.patch},
+          {"name", r.patch_names[s.patch]},
+          {"edge", s.edge},
+          {"range", {s.begin, s.end}},
+          {"exact_range", {s.exact_begin, s.exact_end}}};
+}
 
-Json join_json(const ReportedJoin& j) {
+Json join_json(const Report& r, const ReportedJoin& j) {
   const Certificate& c = j.certificate;
   Json exact{{"C0", to_string(c.c0.verdict)}, {"C1", to_string(c.c1.verdict)}, {"C2", to_string(c.c2.verdict)},
              {"G1", to_string(c.g1.verdict)}, {"ratio", c.ratio ? Json(*c.ratio) : Json(nullptr)}};
-  Json pairing{{"kind", to_string(j.pairing)}, {"nodes", j.pairing_nodes}};
+  Json pairing{{"kind", to_string(j.pairing)}};
+  if (!j.pairing_nodes.empty()) pairing["nodes"] = j.pairing_nodes;
   if (!j.pairing_ratio.empty()) pairing["ratio"] = j.pairing_ratio;
   Json degenerate = Json::array();
   for (const Degeneracy& d : c.degenerate)
@@ -38,8 +45,8 @@ Json join_json(const ReportedJoin& j) {
     if (!cls->reason.empty()) reasons[name] = cls->reason;
   }
   return {{"id", j.id},
-          {"a", side(j.a)},
-          {"b", side(j.b)},
+          {"a", side(r, j.a)},
+          {"b", side(r, j.b)},
           {"kind", to_string(j.kind)},
           {"reversed", j.reversed},
           {"exact", exact},
@@ -104,7 +111,7 @@ void write_json(std::ostream& out, const Report& r) {
                     {"notes", r.notes}}},
                   {"request", request_json(r)}};
   out << open_object(head) << ",\n\"joins\":[";
-  for (std::size_t i = 0; i < r.joins.size(); ++i) out << (i ? ",\n" : "\n") << join_json(r.joins[i]).dump();
+  for (std::size_t i = 0; i < r.joins.size(); ++i) out << (i ? ",\n" : "\n") << join_json(r, r.joins[i]).dump();
   out << "],\n\"unmatched_edges\":[";
   for (std::size_t i = 0; i < r.unmatched.size(); ++i) {
     const EdgeRange& e = r.unmatched[i];

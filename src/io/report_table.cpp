@@ -37,9 +37,11 @@ std::string bound_text(const EnclosedMaximum& m) {
                      std::isfinite(m.upper) ? outward(m.upper, true) : m.upper);
 }
 
-std::string side_text(const Report& r, const ReportedSide& s) {
+// "wall.u_max", with the range where only a part of the edge joins: "wall.u_max[0, 0.5]".
+std::string side_text(const Report& r, const ReportedSide& s, bool part) {
   const std::string& name = r.patch_names[s.patch];
-  return name.empty() ? fmt::format("{}.{}", s.patch, s.edge) : fmt::format("{}.{}", name, s.edge);
+  const std::string edge = (name.empty() ? std::to_string(s.patch) : name) + "." + s.edge;
+  return part ? fmt::format("{}[{:.6g}, {:.6g}]", edge, std::min(s.begin, s.end), std::max(s.begin, s.end)) : edge;
 }
 
 std::string place_text(const Certificate& c) {
@@ -68,9 +70,10 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
   std::sort(order.begin(), order.end(), [](const auto* x, const auto* y) { return worse(*x, *y); });
   for (const ReportedJoin* j : order) {
     const Certificate& c = j->certificate;
+    const bool part = j->kind == JoinKind::t_junction;
     std::string cls = class_text(c);
     if (c.ratio && *c.ratio != "1" && c.ratio->size() <= 12) cls += " ×" + *c.ratio;
-    rows.push_back({std::to_string(j->id), side_text(r, j->a), side_text(r, j->b) + (j->reversed ? " ↔" : ""), cls,
+    rows.push_back({std::to_string(j->id), side_text(r, j->a, part), side_text(r, j->b, part) + (j->reversed ? " ↔" : ""), cls,
                     bound_text(c.gap),
                     bound_text(c.angle) + (c.angle.upper > 90 ? " (planes " + bound_text(c.plane_angle) + ")" : ""),
                     place_text(c)});
@@ -139,7 +142,7 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     out << fmt::format("free     {} edges without a partner within {:.3g}:", r.unmatched.size(), r.match_length);
     constexpr std::size_t kShown = 8;
     for (std::size_t i = 0; i < std::min(kShown, r.unmatched.size()); ++i)
-      out << ' ' << side_text(r, {r.unmatched[i].patch, to_string(r.unmatched[i].edge), 0, 1});
+      out << ' ' << side_text(r, {r.unmatched[i].patch, to_string(r.unmatched[i].edge), 0, 1, "", ""}, false);
     out << (r.unmatched.size() > kShown ? " …\n" : "\n");
   }
   if (r.request.require || r.request.gap_tolerance || r.request.angle_tolerance) {

@@ -204,33 +204,54 @@ class EdgeMatcher {
     bool a_is_end, b_is_end;
   };
 
+  // All contacts at one place of a or of b.
+  static bool only_touch(const std::vector<Contact>& contacts) {
+    double spread_a = 0, spread_b = 0;
+    for (const Contact& x : contacts) {
+      spread_a = std::max(spread_a, std::abs(x.a - contacts[0].a));
+      spread_b = std::max(spread_b, std::abs(x.b - contacts[0].b));
+    }
+    return spread_a < 1e-6 || spread_b < 1e-6;
+  }
+
   // A partial overlap: ends of one edge on the other give two places where they meet.
   void join_overlap(const Edge& a, const Edge& b) {
     std::vector<Contact> contacts;
     std::optional<EdgeCurve> curve_a, curve_b;
-    const auto add = [&](const Edge& from, const Edge& onto, std::optional<EdgeCurve>& onto_curve, bool from_a) {
+    const auto contact = [&](int end, double on, bool on_is_end, bool from_a) {
+      return from_a ? Contact{double(end), on, true, on_is_end} : Contact{on, double(end), on_is_end, true};
+    };
+    // Ends on ends cost nothing to find; only if ends remain that may lie inside the other edge is its curve searched.
+    std::array<std::vector<const Point3*>, 2> inside_candidates;
+    const auto add_ends = [&](const Edge& from, const Edge& onto, bool from_a) {
       for (const int end : {0, 1}) {
         const Point3& q = end ? from.end() : from.begin();
-        if (!bg::intersects(grown(onto.box), Box(BoxPoint(q[0], q[1], q[2]), BoxPoint(q[0], q[1], q[2])))) continue;
+        if (distance(onto.begin(), q) <= match_.length) {
+          contacts.push_back(contact(end, 0, true, from_a));
+        } else if (distance(onto.end(), q) <= match_.length) {
+          contacts.push_back(contact(end, 1, true, from_a));
+        } else if (bg::intersects(grown(onto.box), BoxPoint(q[0], q[1], q[2]))) {
+          inside_candidates[from_a ? 0 : 1].push_back(&q);
+        }
+      }
+    };
+    add_ends(a, b, true);
+    add_ends(b, a, false);
+    if (inside_candidates[0].empty() && inside_candidates[1].empty() && only_touch(contacts)) return;
+    const auto add = [&](const Edge& from, const Edge& onto, std::optional<EdgeCurve>& onto_curve, bool from_a) {
+      for (const Point3* q : inside_candidates[from_a ? 0 : 1]) {
         if (!onto_curve) onto_curve.emplace(curve(onto));
-        std::pair<double, double> hit = onto_curve->nearest(q);
-        if (!(hit.second <= match_.length)) continue;
-        bool at_end = true;
-        if (distance(onto.begin(), q) <= match_.length) hit.first = 0;
-        else if (distance(onto.end(), q) <= match_.length) hit.first = 1;
-        else at_end = false;
-        contacts.push_back(from_a ? Contact{double(end), hit.first, true, at_end}
-                                  : Contact{hit.first, double(end), at_end, true});
+        const auto [unit, gap] = onto_curve->nearest(*q);
+        if (gap <= match_.length) contacts.push_back(contact(q == &from.end() ? 1 : 0, unit, false, from_a));
       }
     };
     add(a, b, curve_b, true);
     add(b, a, curve_a, false);
-    if (contacts.size() < 2) return;
+    if (only_touch(contacts)) return;
     std::sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
       return std::tie(x.a, x.b) < std::tie(y.a, y.b);
     });
     const Contact &first = contacts.front(), &last = contacts.back();
-    if (last.a - first.a < 1e-6 || std::abs(last.b - first.b) < 1e-6) return;  // they only touch
     if (!curve_a) curve_a.emplace(curve(a));
     if (!curve_b) curve_b.emplace(curve(b));
     // Near a common vertex every pair of edges is close; what is looked at must be longer than that.
@@ -305,7 +326,10 @@ class EdgeMatcher {
   void list_unmatched() {
     for (const Edge& e : edges_) {
       const double begin = nearest_double(along(e).domain_begin()), end = nearest_double(along(e).domain_end());
-      const double slack = 1e-9 * (end - begin);
+      // A rest no longer than what tells an overlap from a common vertex is not worth listing.
+      double length = 0;
+      for (int i = 0; i + 1 < kSamples; ++i) length += distance(e.samples[i], e.samples[i + 1]);
+      const double slack = std::max(1e-9, 10 * match_.length / length) * (end - begin);
       std::vector<std::pair<double, double>>& ranges = covered_[{e.patch, e.name}];
       std::sort(ranges.begin(), ranges.end());
       double reached = begin;

@@ -7,6 +7,7 @@
 //          (3) bounds are rounded outward and printed so that they read back as the same doubles.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <iosfwd>
 #include <string>
@@ -22,6 +23,7 @@ struct ReportedSide {
   int patch = 0;
   std::string edge;               // "u_min", or "u = 1/2" for a line inside the patch
   double begin = 0, end = 1;      // parameters, in the order in which the join runs through them
+  std::string exact_begin, exact_end;  // the same as exact numbers
 };
 
 struct ReportedJoin {
@@ -30,7 +32,8 @@ struct ReportedJoin {
   JoinKind kind = JoinKind::isoparametric;
   bool reversed = false;
   PairingKind pairing = PairingKind::identity;
-  int pairing_nodes = 2;
+  // Exact parameters on both sides that belong together, for a piecewise linear pairing; else the ranges say it all.
+  std::vector<std::array<std::string, 2>> pairing_nodes;
   std::string pairing_ratio;      // exact r of a rational linear pairing, else ""
   Certificate certificate;
   Judgement judgement;
