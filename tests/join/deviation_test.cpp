@@ -243,12 +243,13 @@ TEST_F(DeviationLaws, Law1to3_Degree64) {
 }
 
 TEST_F(DeviationLaws, Law3_FactorThatChangesSign) {
-  // 3° apart; where F < 0 the sides are exchanged.
-  const Forms c{Form::constant(q(1, 20)), Form(), Form()};
+  // Up to 3° apart and least at 1/2; where F < 0 the sides are exchanged.
+  const Forms c{b({q(1, 20), q(1, 200), q(1, 20)}), Form(), Form()};
   const DeviationBound kept = expect_converged({{c, one(), b({1, 3, 1})}}, Deviation::angle);
   EXPECT_LT(kept.upper, 3);
   const DeviationBound turned = expect_converged({{c, one(), b({-1, -3, -1})}}, Deviation::angle);
-  EXPECT_GT(turned.lower, 177);
+  EXPECT_GT(turned.lower, 178.4 * 0.99);
+  EXPECT_EQ(turned.t, 0.5);
   for (const Form& f : {b({-1, 1}), b({-1, 2}), Form({-1, -2, 1})}) {
     const DeviationBound both = expect_converged({{c, one(), f}}, Deviation::angle);
     EXPECT_GT(both.lower, 177);
