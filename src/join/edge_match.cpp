@@ -152,20 +152,33 @@ class EdgeMatcher {
 
   void join_edges(int i, int j) {
     const Edge &a = edges_[i], &b = edges_[j];
-    for (const bool reversed : {false, true}) {
+    const auto ends_meet = [&](bool reversed) {
       const Point3 &b0 = reversed ? b.end() : b.begin(), &b1 = reversed ? b.begin() : b.end();
-      if (!(distance(a.begin(), b0) <= match_.length) || !(distance(a.end(), b1) <= match_.length)) continue;
-      if (samples_agree(a, b, reversed, match_.length)) return add_whole(a, b, reversed, nullptr);
-      const EdgeCurve curve_a = curve(a), curve_b = curve(b);
-      if (lies_on(a, curve_b)) return add_whole(a, b, reversed, &curve_b);
+      return distance(a.begin(), b0) <= match_.length && distance(a.end(), b1) <= match_.length;
+    };
+    const std::array<bool, 2> meet{ends_meet(false), ends_meet(true)};  // both when the edges are closed
+    for (const bool reversed : {false, true})
+      if (meet[reversed] && samples_agree(a, b, reversed, match_.length)) return add_whole(a, b, reversed, nullptr);
+    if (meet[0] || meet[1]) {
+      const EdgeCurve curve_b = curve(b);
+      for (const bool reversed : {false, true})
+        if (meet[reversed] && lies_on(a, curve_b, meet[!reversed] ? std::optional(reversed) : std::nullopt))
+          return add_whole(a, b, reversed, &curve_b);
     }
     join_overlap(a, b);
   }
 
-  // All samples of a within the match length of the curve.
-  bool lies_on(const Edge& a, const EdgeCurve& b) const {
-    for (const Point3& q : a.samples)
-      if (!(b.nearest(q).second <= match_.length)) return false;
+  // All samples of a within the match length of the curve and, when asked, met in this direction.
+  bool lies_on(const Edge& a, const EdgeCurve& b, std::optional<bool> reversed) const {
+    double last = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      const auto [unit, gap] = b.nearest(a.samples[i]);
+      if (!(gap <= match_.length)) return false;
+      if (!reversed || i == 0 || i + 1 == kSamples) continue;  // the ends of a closed edge are one place
+      const double along = *reversed ? 1 - unit : unit;
+      if (along < last) return false;
+      last = along;
+    }
     return true;
   }
 
@@ -286,7 +299,7 @@ class EdgeMatcher {
       const double at = nearest_double(T((k - begin) / (stop - begin)));
       if (std::abs(at - unit) < 1e-5) candidates.push_back(k);
     }
-    for (const double radius : {1e-5, 1e-7, 1e-9})
+    for (const double radius : {1e-5, 1e-7, 1e-9, 1e-11, 1e-13})
       candidates.push_back(at_unit(begin, stop, embed<T>(simplest_fraction(unit, radius))));
     candidates.push_back(at_unit(begin, stop, embed<T>(from_double(unit))));
     const auto exact_point = [&](const Edge& x, const T& t) {

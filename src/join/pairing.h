@@ -17,24 +17,18 @@ T at_unit(const T& begin, const T& end, const T& unit) {
   return begin + unit * (end - begin);
 }
 
-// The simplest fraction within `radius` of x (Stern–Brocot descent). REQUIRES 0 <= x <= 1.
+// The fraction of smallest denominator in [low, high], by continued fractions. REQUIRES 0 <= low <= high.
+inline Rational simplest_between(const Rational& low, const Rational& high) {
+  const Rational whole{Integer(numerator(low) / denominator(low))};
+  if (whole == low) return whole;
+  if (whole + Rational(1) <= high) return whole + Rational(1);
+  const Rational one(1);
+  return whole + one / simplest_between(one / (high - whole), one / (low - whole));
+}
+
+// The simplest fraction within `radius` of x. REQUIRES 0 <= x <= 1.
 inline Rational simplest_fraction(double x, double radius) {
-  const Rational low = from_double(std::max(0.0, x - radius)), high = from_double(std::min(1.0, x + radius));
-  Integer a(0), b(1), c(1), d(1);  // a/b <= low, high <= c/d
-  if (low == 0) return Rational(0);
-  if (high == 1) return Rational(1);
-  for (int i = 0; i < 4000; ++i) {
-    const Integer n = a + c, m = b + d;
-    const Rational mediant(n, m);
-    if (mediant < low) {
-      a = n, b = m;
-    } else if (high < mediant) {
-      c = n, d = m;
-    } else {
-      return mediant;
-    }
-  }
-  return from_double(x);
+  return simplest_between(from_double(std::max(0.0, x - radius)), from_double(std::min(1.0, x + radius)));
 }
 
 // A pairing of the ranges [a0, a1] and [b0, b1] (b1 < b0 when reversed): affine.
@@ -75,13 +69,21 @@ Pairing<T> nearest_point_pairing(const EdgeCurve& a, const EdgeCurve& b, const T
                                  double length) {
   const bool reversed = b1 < b0;
   const auto on_b = [&](double unit) { return b(reversed ? 1 - unit : unit); };
+  // The nearest place within `reach` of the last one; farther when it lies at the end of the reach.
+  const auto next_unit = [&](const Point3& q, double from, double reach) {
+    while (true) {
+      const double to = std::min(1.0, from + reach);
+      const double found = reversed ? 1 - b.nearest(q, 1 - to, 1 - from).first : b.nearest(q, from, to).first;
+      if (to == 1 || found < from + 0.9 * reach) return found;
+      reach *= 2;
+    }
+  };
   std::vector<double> units;
   for (int pieces = 16; pieces <= 1024; pieces *= 2) {
     units.assign(1, 0.0);
     for (int i = 1; i < pieces; ++i) {
       const Point3 q = a(double(i) / pieces);
-      const double from = units.back(), to = std::min(1.0, from + 8.0 / pieces);
-      const double found = reversed ? 1 - b.nearest(q, 1 - to, 1 - from).first : b.nearest(q, from, to).first;
+      const double from = units.back(), found = next_unit(q, from, 8.0 / pieces);
       // Strictly monotone, leaving room for the nodes that follow.
       units.push_back(std::clamp(found, from + 1e-3 / pieces, 1 - 1e-3 * (pieces - i) / pieces));
     }
