@@ -30,6 +30,17 @@ bool interval_rung_refutes_c0(const std::vector<JoinForms<Interval>>& forms) {
   return false;
 }
 
+std::optional<FixedG1> fixed_rung_decides_g1(const std::vector<JoinPiece<Rational>>& pieces) {
+  std::optional<FixedG1> all = FixedG1::proven_smooth;
+  for (const JoinPiece<Rational>& piece : pieces) {
+    const std::optional<BicubicJoinRows> rows = bicubic_join_rows(piece);
+    const std::optional<FixedG1> here = rows ? decide_fixed_g1(*rows) : std::nullopt;
+    if (here == FixedG1::refuted) return here;
+    if (!here || (all && *here == FixedG1::cannot_tell)) all = here;
+  }
+  return all;
+}
+
 DeviationBound interval_rung_bound_angle(const std::vector<JoinForms<Interval>>& forms, Deviation what,
                                          const Budget& budget) {
   std::vector<DeviationPiece> pieces;

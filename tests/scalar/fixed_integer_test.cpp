@@ -45,7 +45,8 @@ template <int N>
 std::vector<Integer> samples(WildNumbers& random) {
   std::vector<Integer> out{0, 1, -1, 2, -3, power(64 * N - 1) - 1, -power(64 * N - 1), 1 - power(64 * N - 1)};
   for (int k = 63; k < 64 * N - 1; k += k % 64 == 63 ? 1 : 63)
-    for (const Integer& z : {power(k), Integer(power(k) - 1), Integer(-power(k)), Integer(-power(k) - 1)}) out.push_back(z);
+    for (const Integer& z : {power(k), Integer(power(k) - 1), Integer(-power(k)), Integer(-power(k) - 1)})
+      out.push_back(z);
   for (int i = 0; i < 40; ++i) out.push_back(random.integer(1 + random.below(64 * N - 1)));
   return out;
 }

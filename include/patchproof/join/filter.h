@@ -2,9 +2,11 @@
 // The rungs of the ladder. Each is a function of its own that tests call and reports name.
 //
 //   interval   forms in interval arithmetic: may refute equality and bound deviations; never proves equality
+//   fixed      bicubic joins of doubles, in integers of fixed width: decides the determinant of G1, mostly also the side
 //   exact      forms over Integer ("integer") or Q(√d) ("quadratic"): decides every class
 //
-// ENSURES  (1) what the interval rung answers, the exact rung answers too;  (2) both rungs' bounds enclose the supremum.
+// ENSURES  (1) what the interval or the fixed rung answers, the exact rung answers too;  (2) the interval and the exact
+//          rung's bounds enclose the supremum.
 // REQUIRES a RoundingGuard alive.
 #pragma once
 
@@ -13,6 +15,7 @@
 
 #include "patchproof/join/continuity.h"
 #include "patchproof/join/deviation.h"
+#include "patchproof/join/fixed_g1.h"
 #include "patchproof/join/pieces.h"
 
 namespace patchproof {
@@ -22,6 +25,10 @@ bool fits_interval_rung(const std::vector<JoinForms<Interval>>& forms);
 
 // Some piece's points differ certainly.
 bool interval_rung_refutes_c0(const std::vector<JoinForms<Interval>>& forms);
+
+// refuted when a piece is, proven_smooth when all pieces are, cannot_tell when a piece leaves it open; empty when no piece
+// is refuted and one is not representable. REQUIRES the join is C0. Needs no RoundingGuard.
+std::optional<FixedG1> fixed_rung_decides_g1(const std::vector<JoinPiece<Rational>>& pieces);
 
 template <Ring R>
 DeviationBound bound_gap(const std::vector<JoinForms<R>>& forms, const Budget& budget) {

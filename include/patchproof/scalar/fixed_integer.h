@@ -52,7 +52,9 @@ constexpr WordPair multiply_words(Word a, Word b, Word c = 0, Word d = 0) {
   return {static_cast<Word>(r), static_cast<Word>(r >> 64)};
 }
 #else
-constexpr WordPair multiply_words(Word a, Word b, Word c = 0, Word d = 0) { return multiply_words_by_halves(a, b, c, d); }
+constexpr WordPair multiply_words(Word a, Word b, Word c = 0, Word d = 0) {
+  return multiply_words_by_halves(a, b, c, d);
+}
 #endif
 
 // a + b + carry and a − b − borrow; the new carry (borrow), 0 or 1, is left in the last argument.
@@ -83,8 +85,7 @@ class FixedInteger {
     for (int i = 1; i < Limbs; ++i) limb_[i] = x < 0 ? ~Word{0} : 0;
   }
   template <int M>
-    requires(M < Limbs)
-  explicit constexpr FixedInteger(const FixedInteger<M>& x) {
+  requires(M < Limbs) explicit constexpr FixedInteger(const FixedInteger<M>& x) {
     for (int i = 0; i < Limbs; ++i) limb_[i] = i < M ? x.limb(i) : x.sign_word();
   }
 
@@ -180,16 +181,16 @@ constexpr FixedInteger<N + M> multiply_wide(const FixedInteger<N>& a, const Fixe
 
 // sum ± a · b in place.
 template <int S, int N, int M>
-  requires(S >= N + M)
-constexpr void add_product(FixedInteger<S>& sum, const FixedInteger<N>& a, const FixedInteger<M>& b) {
+requires(S >= N + M) constexpr void add_product(FixedInteger<S>& sum, const FixedInteger<N>& a,
+                                                const FixedInteger<M>& b) {
   if constexpr (S == N + M)
     sum += multiply_wide(a, b);
   else
     sum += FixedInteger<S>(multiply_wide(a, b));
 }
 template <int S, int N, int M>
-  requires(S >= N + M)
-constexpr void subtract_product(FixedInteger<S>& sum, const FixedInteger<N>& a, const FixedInteger<M>& b) {
+requires(S >= N + M) constexpr void subtract_product(FixedInteger<S>& sum, const FixedInteger<N>& a,
+                                                     const FixedInteger<M>& b) {
   if constexpr (S == N + M)
     sum -= multiply_wide(a, b);
   else
