@@ -229,10 +229,12 @@ class JoinCertifier {
     std::optional<Sign> sign;
     for (const auto& [a, b] : normals_) {
       const BinaryForm<R> side = dot(a.n, b.n);
-      if (a.has_factor() || b.has_factor() || vanishes(side) ||
+      const auto factor = odd_part(over_field(a.factor * b.factor));
+      if (vanishes(side) || !isolate_roots(factor, T(1)).empty() ||
           !detail::certainly_zero_free(detail::enclose_vector(FormVector<R>{side, {}, {}})))
         return Orientation::mixed;
-      const Sign here = *scalar_traits<R>::sign(side[0]);
+      const bool turned = *scalar_traits<T>::sign(factor[0]) == Sign::negative;
+      const Sign here = *scalar_traits<R>::sign(turned ? R(-side[0]) : side[0]);
       if (sign && *sign != here) return Orientation::mixed;
       sign = here;
     }

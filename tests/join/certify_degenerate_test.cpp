@@ -99,5 +99,26 @@ TEST(CertifyDegenerate, SidesThatChangeAlongTheEdgeAreMixed) {
   expect_true_witness(a, b, join, *c.g1.witness);
 }
 
+TEST(CertifyDegenerate, ANormalThatVanishesButKeepsItsSideLeavesTheBoundsTight) {
+  // y_s of the first patch has the factor (3t − 1)²; the second patch is bent by atan(1/20) = 2.86°, or folded back so.
+  const auto sheet = [](const std::vector<Rational>& y, const Rational& z) {
+    std::vector<Vec<Rational, 4>> net;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 3; ++j) net.push_back(weighted(q(j, 2), q(i) * y[j], q(i) * z));
+    return Surface<Rational>(KnotVector<Rational>::bezier(1), KnotVector<Rational>::bezier(2), std::move(net));
+  };
+  const Surface<Rational> a = sheet({q(-1), q(2), q(-4)}, q(0));
+  const auto certificate = [&](int y) {
+    const Surface<Rational> b = sheet({q(y), q(y), q(y)}, q(1, 20));
+    return certify_join(a, b, edge_join(a, EdgeName::u_min, b, EdgeName::u_min));
+  };
+  const Certificate smooth = certificate(1), cusp = certificate(-1);
+  EXPECT_EQ(smooth.orientation, Orientation::smooth);
+  EXPECT_TRUE(smooth.angle.converged && smooth.angle.upper < 2.9);
+  EXPECT_EQ(cusp.orientation, Orientation::cusp);
+  EXPECT_TRUE(cusp.angle.converged && cusp.angle.lower > 175 && cusp.angle.upper < 177.2);
+  EXPECT_TRUE(cusp.plane_angle.converged && cusp.plane_angle.upper < 2.9);
+}
+
 }  // namespace
 }  // namespace patchproof::test
