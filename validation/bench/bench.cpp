@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast joins are decided. `./dev bench` runs everything; ratios are only meaningful within one run.
 //
-// Random bicubic joins with dyadic coordinates of 26 bits, exactly G1 by construction (ratio 3/2):
+// Random bicubic joins, a lattice moved by noise, with dyadic coordinates of 26 bits, exactly G1 by construction (ratio 3/2):
 //   g1_decision/integer   determinant, regularity and side on cleared integers: the rung that certify uses
+//   g1_decision/fixed     the same question in integers of fixed width, from doubles to the answer: join/fixed_g1.h
 //   g1_decision/rational  the same templates on mpq: what clearing the denominators saves
 //   certify_join          everything: classes, witnesses, bounds
 // and the same for rational joins (homogeneous reflection, weights of 10 bits). Models: one whole certify run per
@@ -16,6 +17,7 @@
 #include "patchproof/io/report.h"
 #include "patchproof/join/certify.h"
 #include "patchproof/join/continuity.h"
+#include "patchproof/join/fixed_g1.h"
 #include "patchproof/join/pieces.h"
 
 namespace {
@@ -30,12 +32,13 @@ struct TwoPatches {
 
 // A: u in [0, 1] with its edge u_max; B with its edge u_min; the row behind the edge is reflected, scaled by 3/2.
 TwoPatches random_join(std::mt19937& random, bool rational) {
-  std::uniform_int_distribution<int> coordinate(-(1 << 25), 1 << 25), weight(1 << 9, 1 << 10);
+  std::uniform_int_distribution<int> noise(-(1 << 22), 1 << 22), weight(1 << 9, 1 << 10);
   const auto knots = KnotVector<Rational>::bezier(3);
   std::vector<Vec<Rational, 4>> a(16), b(16);
   for (int i = 0; i < 16; ++i) {
     const Rational w = rational ? Rational(weight(random)) / Rational(1 << 10) : Rational(1);
-    for (int c = 0; c < 3; ++c) a[i][c] = Rational(coordinate(random)) / Rational(1 << 20) * w;
+    const std::array<int, 3> lattice{(i / 4) << 24, (i % 4) << 24, 0};
+    for (int c = 0; c < 3; ++c) a[i][c] = Rational(lattice[c] + noise(random)) / Rational(1 << 20) * w;
     a[i][3] = w;
     b[i] = a[i];
   }
@@ -79,6 +82,22 @@ void g1_decision(benchmark::State& state, bool rational) {
   state.SetItemsProcessed(state.iterations());
 }
 
+void fixed_g1_decision(benchmark::State& state, bool rational) {
+  std::vector<BicubicJoinRows> rows;
+  for (const TwoPatches& t : random_joins(rational))
+    rows.push_back(bicubic_join_rows(join_pieces(t.a, t.b, t.join)[0]).value());
+  std::size_t i = 0;
+  int proven = 0, refused = 0;
+  for (auto _ : state) {
+    const std::optional<FixedG1> answer = decide_fixed_g1(rows[i++ % rows.size()]);
+    proven += answer == FixedG1::proven_smooth;
+    refused += !answer || *answer == FixedG1::refuted;
+  }
+  if (refused > 0) state.SkipWithError("a G1 join was refused");
+  state.counters["proven"] = proven / static_cast<double>(state.iterations());  // the others need the integer rung
+  state.SetItemsProcessed(state.iterations());
+}
+
 void certify_one(benchmark::State& state, bool rational) {
   const std::vector<TwoPatches> joins = random_joins(rational);
   std::size_t i = 0;
@@ -115,6 +134,7 @@ int main(int argc, char** argv) {
   for (const bool rational : {false, true}) {
     const std::string kind = rational ? "/rational_bicubic" : "/polynomial_bicubic";
     benchmark::RegisterBenchmark(("g1_decision/integer" + kind).c_str(), g1_decision<Integer>, rational);
+    benchmark::RegisterBenchmark(("g1_decision/fixed" + kind).c_str(), fixed_g1_decision, rational);
     benchmark::RegisterBenchmark(("g1_decision/rational" + kind).c_str(), g1_decision<Rational>, rational);
     benchmark::RegisterBenchmark(("certify_join" + kind).c_str(), certify_one, rational);
   }
