@@ -7,8 +7,13 @@ namespace patchproof {
 namespace {
 
 template <ExactField T>
-ReportedSide reported_side(const BsplinePatch<T, 4>& patch, int index, const IsoLine<T>& line, const std::vector<T>& nodes) {
-  ReportedSide side{index, "", nearest_double(nodes.front()), nearest_double(nodes.back()), to_text(nodes.front()),
+ReportedSide reported_side(const BsplinePatch<T, 4>& patch, int index, const IsoLine<T>& line,
+                           const std::vector<T>& nodes) {
+  ReportedSide side{index,
+                    "",
+                    nearest_double(nodes.front()),
+                    nearest_double(nodes.back()),
+                    to_text(nodes.front()),
                     to_text(nodes.back())};
   for (const EdgeName edge : {EdgeName::u_min, EdgeName::u_max, EdgeName::v_min, EdgeName::v_max}) {
     const IsoLine<T> candidate = edge_line(patch, edge);
@@ -49,8 +54,8 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
                                            [&](const CollapsedEdge& c) { return is_edge(c.patch, c.edge); });
         if (used || collapsed) continue;
         const KnotVector<T>& along = patches[p]->knots(other(edge_line(*patches[p], edge).constant));
-        match.unmatched.push_back({static_cast<int>(p), edge, nearest_double(along.domain_begin()),
-                                   nearest_double(along.domain_end())});
+        match.unmatched.push_back(
+            {static_cast<int>(p), edge, nearest_double(along.domain_begin()), nearest_double(along.domain_end())});
       }
   }
   report.match_length = match.length;

@@ -25,9 +25,9 @@ class JoinCertifier {
  public:
   JoinCertifier(const BsplinePatch<T, 4>& a, const BsplinePatch<T, 4>& b, const Join<T>& join, const Request& request)
       : pieces_(join_pieces(a, b, join)), witnesses_(join, pieces_) {
-    budget_.deadline = std::chrono::steady_clock::now() +
-                       std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                           std::chrono::duration<double>(std::min(request.seconds_per_join, 1e6)));
+    budget_.deadline =
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                               std::chrono::duration<double>(std::min(request.seconds_per_join, 1e6)));
     for (const JoinPiece<T>& piece : pieces_) interval_.push_back(join_forms<Interval>(piece));
     fits_ = fits_interval_rung(interval_);
   }
@@ -131,7 +131,8 @@ class JoinCertifier {
       const std::string reason = certificate_.ratio
                                      ? "cross-boundary derivatives differ by the constant factor " + *certificate_.ratio
                                      : "cross-boundary derivatives differ";
-      certificate_.c1 = {Verdict::refuted, reason, witnesses_.find(Quantity::first_derivative, {differing, T(1) / T(2)})};
+      certificate_.c1 = {Verdict::refuted, reason,
+                         witnesses_.find(Quantity::first_derivative, {differing, T(1) / T(2)})};
       certificate_.c2 = {Verdict::refuted, "not C1", std::nullopt};
       return;
     }

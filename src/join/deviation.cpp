@@ -76,9 +76,7 @@ double gap_upper(const Coefficients& c) {
   return upper;
 }
 
-double gap_lower(const DeviationCoefficient& x) {
-  return x[3].inf() > 0 ? std::max((norm(x) / x[3]).inf(), 0.0) : 0.0;
-}
+double gap_lower(const DeviationCoefficient& x) { return x[3].inf() > 0 ? std::max((norm(x) / x[3]).inf(), 0.0) : 0.0; }
 
 // Hull bound of the pseudo-angle with D taken as orientation · D.
 double angle_upper(const Coefficients& c, int orientation) {

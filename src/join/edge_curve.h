@@ -56,7 +56,10 @@ class EdgeCurve {
     double a = std::max(from, best - step), b = std::min(to, best + step);
     for (int i = 0; i < 60 && b - a > 1e-15; ++i) {
       const double x = b - golden * (b - a), y = a + golden * (b - a);
-      if (distance((*this)(x), q) <= distance((*this)(y), q)) b = y; else a = x;
+      if (distance((*this)(x), q) <= distance((*this)(y), q))
+        b = y;
+      else
+        a = x;
     }
     const double refined = (a + b) / 2, d = distance((*this)(refined), q);
     return d < best_distance ? std::pair{refined, d} : std::pair{best, best_distance};

@@ -5,10 +5,10 @@
 #include <boost/geometry/algorithms/expand.hpp>
 #include <boost/geometry/algorithms/intersects.hpp>
 #include <boost/geometry/algorithms/make.hpp>
-#include <boost/geometry/strategies/strategies.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
 #include <map>
 #include <tuple>
 
@@ -194,8 +194,7 @@ class EdgeMatcher {
     join.pairing = affine_pairing(a0, a1, b0, b1);
     // Equal speeds show as samples that agree to rounding; then there is nothing to look for.
     const bool same_speed = !differently_run && samples_agree(a, b, reversed, 1e-12 * match_.diagonal);
-    if (auto better = same_speed ? std::nullopt
-                                 : rational_linear_pairing(*patches_[a.patch], *patches_[b.patch], join))
+    if (auto better = same_speed ? std::nullopt : rational_linear_pairing(*patches_[a.patch], *patches_[b.patch], join))
       join.pairing = *better;
     else if (differently_run)
       join.pairing = nearest_point_pairing(curve(a), *differently_run, a0, a1, b0, b1, match_.length / 10);
@@ -213,7 +212,7 @@ class EdgeMatcher {
   }
 
   struct Contact {
-    double a, b;          // unit parameters
+    double a, b;  // unit parameters
     bool a_is_end, b_is_end;
   };
 
@@ -261,9 +260,8 @@ class EdgeMatcher {
     add(a, b, curve_b, true);
     add(b, a, curve_a, false);
     if (only_touch(contacts)) return;
-    std::sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
-      return std::tie(x.a, x.b) < std::tie(y.a, y.b);
-    });
+    std::sort(contacts.begin(), contacts.end(),
+              [](const Contact& x, const Contact& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
     const Contact &first = contacts.front(), &last = contacts.back();
     if (!curve_a) curve_a.emplace(curve(a));
     if (!curve_b) curve_b.emplace(curve(b));
@@ -307,8 +305,7 @@ class EdgeMatcher {
       const Vec<T, 4> h = evaluate(row, t);
       return Vec<T, 3>{{h[0] / h[3], h[1] / h[3], h[2] / h[3]}};
     };
-    const Vec<T, 3> target =
-        exact_point(ending, end < 0.5 ? along(ending).domain_begin() : along(ending).domain_end());
+    const Vec<T, 3> target = exact_point(ending, end < 0.5 ? along(ending).domain_begin() : along(ending).domain_end());
     std::optional<T> best_square;
     T best = candidates.front();
     for (const T& t : candidates) {
@@ -327,10 +324,10 @@ class EdgeMatcher {
         const std::vector<T> breaks = knots.breaks();
         for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
           if (knots.multiplicity(breaks[i]) < knots.degree()) continue;
-          Join<T> join{JoinKind::knot_line, static_cast<int>(p), static_cast<int>(p), {d, breaks[i], Side::left},
-                       {d, breaks[i], Side::right}, {}};
-          join.pairing = affine_pairing(across.domain_begin(), across.domain_end(), across.domain_begin(),
-                                        across.domain_end());
+          Join<T> join{JoinKind::knot_line,        static_cast<int>(p),         static_cast<int>(p),
+                       {d, breaks[i], Side::left}, {d, breaks[i], Side::right}, {}};
+          join.pairing =
+              affine_pairing(across.domain_begin(), across.domain_end(), across.domain_begin(), across.domain_end());
           match_.joins.push_back(std::move(join));
         }
       }
@@ -368,14 +365,16 @@ EdgeMatch<T> match_edges(const std::vector<const BsplinePatch<T, 4>*>& patches, 
 }
 
 template <ExactField T>
-Join<T> whole_edge_join(const std::vector<const BsplinePatch<T, 4>*>& patches, int patch_a, EdgeName edge_a, int patch_b,
-                        EdgeName edge_b, bool reversed) {
+Join<T> whole_edge_join(const std::vector<const BsplinePatch<T, 4>*>& patches, int patch_a, EdgeName edge_a,
+                        int patch_b, EdgeName edge_b, bool reversed) {
   const auto line_a = edge_line(*patches[patch_a], edge_a), line_b = edge_line(*patches[patch_b], edge_b);
   const KnotVector<T>& along_a = patches[patch_a]->knots(other(line_a.constant));
   const KnotVector<T>& along_b = patches[patch_b]->knots(other(line_b.constant));
   Join<T> join{patch_a == patch_b ? JoinKind::seam : JoinKind::isoparametric, patch_a, patch_b, line_a, line_b, {}};
-  join.pairing = reversed ? affine_pairing(along_a.domain_begin(), along_a.domain_end(), along_b.domain_end(), along_b.domain_begin())
-                          : affine_pairing(along_a.domain_begin(), along_a.domain_end(), along_b.domain_begin(), along_b.domain_end());
+  join.pairing =
+      reversed
+          ? affine_pairing(along_a.domain_begin(), along_a.domain_end(), along_b.domain_end(), along_b.domain_begin())
+          : affine_pairing(along_a.domain_begin(), along_a.domain_end(), along_b.domain_begin(), along_b.domain_end());
   if (auto better = rational_linear_pairing(*patches[patch_a], *patches[patch_b], join)) join.pairing = *better;
   return join;
 }

@@ -65,8 +65,8 @@ std::optional<Pairing<T>> rational_linear_pairing(const BsplinePatch<T, 4>& a, c
 // REQUIRES the ends already belong together. Refined until the paired points between the nodes are within `length`, or
 // 1024 pieces.
 template <ExactField T>
-Pairing<T> nearest_point_pairing(const EdgeCurve& a, const EdgeCurve& b, const T& a0, const T& a1, const T& b0, const T& b1,
-                                 double length) {
+Pairing<T> nearest_point_pairing(const EdgeCurve& a, const EdgeCurve& b, const T& a0, const T& a1, const T& b0,
+                                 const T& b1, double length) {
   const bool reversed = b1 < b0;
   const auto on_b = [&](double unit) { return b(reversed ? 1 - unit : unit); };
   // The nearest place within `reach` of the last one; farther when it lies at the end of the reach.

@@ -28,7 +28,8 @@ AffineMap<T> some_map() {
 
 BsplinePatch<Rational, 3> some_patch() {
   RandomRationals random(11);
-  return {make_knots<Rational>(2, {0, 0, 0, 1, 3, 3, 4, 4}), make_knots<Rational>(1, {1, 2, 3, 4}), random.points<3>(10)};
+  return {make_knots<Rational>(2, {0, 0, 0, 1, 3, 3, 4, 4}), make_knots<Rational>(1, {1, 2, 3, 4}),
+          random.points<3>(10)};
 }
 
 TYPED_TEST(AffineLaws, Law1_MappedPointsGiveTheMappedPatch) {
@@ -59,8 +60,7 @@ TYPED_TEST(AffineLaws, Law2_Composition) {
     using S = decltype(x);
     return compose(translation(vec<S>(1, 2, 3)), scaling(vec<S>(2, 3, 5)));
   };
-  const auto truth =
-      apply(outer(Rational()), apply(some_map<Rational>(), Vec<Rational, 3>{{Rational(1) / 7, 2, -3}}));
+  const auto truth = apply(outer(Rational()), apply(some_map<Rational>(), Vec<Rational, 3>{{Rational(1) / 7, 2, -3}}));
   const auto p = vec<T>(Rational(1) / 7, 2, -3);
   expect_agrees(apply(compose(outer(T(0)), some_map<T>()), p), truth);
   expect_agrees(apply(outer(T(0)), apply(some_map<T>(), p)), truth);

@@ -82,9 +82,11 @@ TYPED_TEST(BezierPatchLaws, Law2_SplitAndRestrict) {
       return d == Direction::u ? evaluate(patch, make<S>(s), make<S>(kV)) : evaluate(patch, make<S>(kV), make<S>(s));
     };
     check<TypeParam>(at(t * s), [&]<class S>() { return value(split(make_bezier<S>(b), d, make<S>(t)).first); });
-    check<TypeParam>(at(t + (one - t) * s), [&]<class S>() { return value(split(make_bezier<S>(b), d, make<S>(t)).second); });
-    check<TypeParam>(at(2 + (t - 2) * s),
-                     [&]<class S>() { return value(restrict(make_bezier<S>(b), d, make<S>(Rational(2)), make<S>(t))); });
+    check<TypeParam>(at(t + (one - t) * s),
+                     [&]<class S>() { return value(split(make_bezier<S>(b), d, make<S>(t)).second); });
+    check<TypeParam>(at(2 + (t - 2) * s), [&]<class S>() {
+      return value(restrict(make_bezier<S>(b), d, make<S>(Rational(2)), make<S>(t)));
+    });
   }
 }
 
@@ -98,7 +100,8 @@ TYPED_TEST(ExactBezierPatchLaws, Law3_ElevationAndReduction) {
   for (const Direction d : {Direction::u, Direction::v}) {
     const auto higher = elevate_degree(b, d, 2);
     EXPECT_EQ(higher.degree(d), b.degree(d) + 2);
-    expect_agrees(evaluate(higher, make<TypeParam>(kU), make<TypeParam>(kV)), by_definition(random_bezier(2, 3), kU, kV));
+    expect_agrees(evaluate(higher, make<TypeParam>(kU), make<TypeParam>(kV)),
+                  by_definition(random_bezier(2, 3), kU, kV));
     auto lower = reduce_degree(higher, d);
     ASSERT_TRUE(lower.has_value());
     lower = reduce_degree(*lower, d);
@@ -108,7 +111,8 @@ TYPED_TEST(ExactBezierPatchLaws, Law3_ElevationAndReduction) {
     // One line of full degree is enough to refuse.
     auto net = higher.net();
     net.back()[1] += TypeParam(1);
-    EXPECT_FALSE(reduce_degree(BezierPatch<TypeParam, 3>(higher.degree(Direction::u), higher.degree(Direction::v), net), d));
+    EXPECT_FALSE(
+        reduce_degree(BezierPatch<TypeParam, 3>(higher.degree(Direction::u), higher.degree(Direction::v), net), d));
   }
   EXPECT_FALSE(reduce_degree(make_bezier<TypeParam>(random_bezier(0, 1)), Direction::u).has_value());
 }
@@ -152,7 +156,8 @@ TYPED_TEST(BezierPatchLaws, Law6_CornerTwists) {
 TEST(BezierPatch, Law6_TwistsAreSymmetric) {
   const Exact b = random_bezier(3, 2);
   const auto swapped = corner_twists(swap_directions(b)), straight = corner_twists(b);
-  EXPECT_TRUE(swapped[0] == straight[0] && swapped[1] == straight[2] && swapped[2] == straight[1] && swapped[3] == straight[3]);
+  EXPECT_TRUE(swapped[0] == straight[0] && swapped[1] == straight[2] && swapped[2] == straight[1] &&
+              swapped[3] == straight[3]);
   const Vec<Rational, 3> zero;
   EXPECT_TRUE(corner_twists(random_bezier(0, 3))[2] == zero);
 }
@@ -177,9 +182,8 @@ TYPED_TEST(BezierPatchLaws, Law7_PiecesAreThePatch) {
         return evaluate(extract_bezier(make_patch<S>(s))[next].bezier, make<S>(x), make<S>(y));
       });
       // The corners are one-sided limits.
-      check<TypeParam>(derivative_by_definition(s, bu[a + 1], bv[b], 0, 0, Side::left, Side::right), [&]<class S>() {
-        return extract_bezier(make_patch<S>(s))[next].bezier.point(2, 0);
-      });
+      check<TypeParam>(derivative_by_definition(s, bu[a + 1], bv[b], 0, 0, Side::left, Side::right),
+                       [&]<class S>() { return extract_bezier(make_patch<S>(s))[next].bezier.point(2, 0); });
     }
 }
 

@@ -36,9 +36,8 @@ TYPED_TEST(BsplinePatchLaws, Law1_EvaluateIsTheDoubleSum) {
   const auto exact = rich_patch();
   for (const Rational& u : places(exact.knots(Direction::u)))
     for (const Rational& v : places(exact.knots(Direction::v)))
-      check<TypeParam>(derivative_by_definition(exact, u, v, 0, 0), [&]<class S>() {
-        return evaluate(make_patch<S>(exact), make_knot<S>(u), make_knot<S>(v));
-      });
+      check<TypeParam>(derivative_by_definition(exact, u, v, 0, 0),
+                       [&]<class S>() { return evaluate(make_patch<S>(exact), make_knot<S>(u), make_knot<S>(v)); });
 }
 
 TYPED_TEST(BsplinePatchLaws, Law2_DerivativesOfEveryOrder) {
@@ -69,7 +68,8 @@ TYPED_TEST(BsplinePatchLaws, Law3_SwappingDirectionsTransposes) {
   for (int k = 0; k <= 2; ++k)
     for (int l = 0; l <= 2; ++l)
       check<TypeParam>(derivative_by_definition(exact, u, v, k, l), [&]<class S>() {
-        return partial_derivatives(swap_directions(make_patch<S>(exact)), make_knot<S>(v), make_knot<S>(u), 2, 2).at(l, k);
+        return partial_derivatives(swap_directions(make_patch<S>(exact)), make_knot<S>(v), make_knot<S>(u), 2, 2)
+            .at(l, k);
       });
   EXPECT_EQ(swap_directions(swap_directions(exact)).net(), exact.net());
 }
@@ -119,8 +119,8 @@ TEST(BsplinePatch, Law5_ParametersOfAnotherScalar) {
                   truth);
     // A parameter box: the enclosure holds the surface at every parameter of the box.
     const Interval box_u(3.25, 3.5), box_v(0.0, 0.25);
-    const Vec<Interval, 3> hull = evaluate_in_span<Interval>(exact, span_u, exact.knots(Direction::v).find_span(0), box_u,
-                                                             box_v);
+    const Vec<Interval, 3> hull =
+        evaluate_in_span<Interval>(exact, span_u, exact.knots(Direction::v).find_span(0), box_u, box_v);
     for (const Rational& s : spread(Rational(13) / 4, Rational(7) / 2, 3))
       for (const Rational& t : spread(Rational(0), Rational(1) / 4, 3)) {
         const auto point = derivative_by_definition(exact, s, t, 0, 0, Side::right, Side::left);
@@ -134,7 +134,8 @@ TEST(BsplinePatch, Law5_ParametersOfAnotherScalar) {
         }
       }
   }
-  expect_agrees(evaluate_in_span<Ball>(exact, span_u, span_v, Ball(u), Ball(v)), derivative_by_definition(exact, u, v, 0, 0));
+  expect_agrees(evaluate_in_span<Ball>(exact, span_u, span_v, Ball(u), Ball(v)),
+                derivative_by_definition(exact, u, v, 0, 0));
   expect_agrees(evaluate_in_span<Tracked>(exact, span_u, span_v, make<Tracked>(u), make<Tracked>(v)),
                 derivative_by_definition(exact, u, v, 0, 0));
 }
@@ -182,7 +183,8 @@ TEST(BsplinePatch, OffsetsAndScalesAreExact) {
 
 // The printed figures of another program: a bicubic surface, points and derivatives cut to 3 decimals.
 TEST(BsplinePatch, ReferenceTable) {
-  const auto file = std::filesystem::path(PATCHPROOF_SOURCE_DIR) / "../shared/data/eval_tables/geomdl_test_surface.json";
+  const auto file =
+      std::filesystem::path(PATCHPROOF_SOURCE_DIR) / "../shared/data/eval_tables/geomdl_test_surface.json";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the reference data " << file << " is not here";
   const auto json = nlohmann::json::parse(std::ifstream(file));
   const auto number = [](const nlohmann::json& x) { return parse_scalar<Rational>(x.dump()).value(); };

@@ -79,8 +79,8 @@ TYPED_TEST(DenominatorLaws, Law2_ZerosWithWitness) {
     }
   };
   expect_zero(bezier(1, 1, {1, 1, 1, -1}));
-  expect_zero(bezier(1, 1, {1, 1, 1, 0}));                 // a corner
-  expect_zero(bezier(1, 1, {0, 0, 0, 0}));                 // everywhere
+  expect_zero(bezier(1, 1, {1, 1, 1, 0}));  // a corner
+  expect_zero(bezier(1, 1, {0, 0, 0, 0}));  // everywhere
   expect_zero(bezier(0, 0, {0}));
   expect_zero(bezier(2, 2, {1, 0, 1, 1, 1, 1, 0, 0, 0}));  // an edge
   expect_zero(times({1, -1, 1}, {1, 1}));                  // (1 − 2u)²: touches at 1/2

@@ -17,8 +17,8 @@ std::vector<Patch> some_patches() {
   RandomRationals random(23);
   const Rational far(1000000), tiny = 1 / Rational(1 << 20);
   std::vector<Patch> out;
-  out.emplace_back(make_knots<Rational>(2, {0, 0, 0, 1, 1, 2, 3, 3, 3}), make_knots<Rational>(1, {q(7, 5), q(7, 5), 2, 3, 3}),
-                   random.points<3>(6 * 3));
+  out.emplace_back(make_knots<Rational>(2, {0, 0, 0, 1, 1, 2, 3, 3, 3}),
+                   make_knots<Rational>(1, {q(7, 5), q(7, 5), 2, 3, 3}), random.points<3>(6 * 3));
   out.emplace_back(make_knots<Rational>(2, {-1, 0, 0, 1, 2, 2, 2, 2, 3, 4, 4, 5}),
                    make_knots<Rational>(3, {far, far, far, far, far + tiny, far + 1, far + 1, far + 1, far + 1}),
                    random.points<3>(9 * 5));
@@ -177,8 +177,9 @@ TYPED_TEST(PatchKnotsLaws, Law1_EveryScalar) {
                 random.points<3>(6 * 3));
   const Rational u = q(5, 4), v = q(9, 4), t = q(3, 2);
   check<TypeParam>(derivative_by_definition(s, u, v, 1, 0), [&]<class S>() {
-    const auto patch = restrict(elevate_degree(insert_knot(make_patch<S>(s), Direction::u, make_knot<S>(t)), Direction::v),
-                                Direction::u, make_knot<S>(q(1, 2)), make_knot<S>(t));
+    const auto patch =
+        restrict(elevate_degree(insert_knot(make_patch<S>(s), Direction::u, make_knot<S>(t)), Direction::v),
+                 Direction::u, make_knot<S>(q(1, 2)), make_knot<S>(t));
     return partial_derivatives(patch, make_knot<S>(u), make_knot<S>(v), 1, 0).at(1, 0);
   });
 }
@@ -186,9 +187,9 @@ TYPED_TEST(PatchKnotsLaws, Law1_EveryScalar) {
 TEST(PatchKnots, MapRowsRefusesDifferingKnots) {
   const Patch s = some_patches()[0];
   int line = 0;
-  EXPECT_THROW(map_rows(s, Direction::u,
-                        [&](const BsplineCurve<Rational, 3>& c) { return insert_knot(c, q(1, 3), line++); }),
-               contract_error);
+  EXPECT_THROW(
+      map_rows(s, Direction::u, [&](const BsplineCurve<Rational, 3>& c) { return insert_knot(c, q(1, 3), line++); }),
+      contract_error);
 }
 
 }  // namespace

@@ -22,8 +22,10 @@ TYPED_TEST_SUITE(RationalPatchLaws, AllScalars, ScalarNames);
 BsplinePatch<Rational, 4> some_patch() {
   RandomRationals random(5);
   auto net = random.points<4>(5 * 4);
-  for (std::size_t i = 0; i < net.size(); ++i) net[i][3] = i % 7 == 3 ? Rational(0) : i == 6 ? Rational(-1) / 4 : net[i][3] / 40 + 2;
-  return {make_knots<Rational>(2, {0, 0, 0, 1, 1, 3, 3, 3}), make_knots<Rational>(3, {-1, -1, -1, -1, 2, 2, 2, 2}), net};
+  for (std::size_t i = 0; i < net.size(); ++i)
+    net[i][3] = i % 7 == 3 ? Rational(0) : i == 6 ? Rational(-1) / 4 : net[i][3] / 40 + 2;
+  return {make_knots<Rational>(2, {0, 0, 0, 1, 1, 3, 3, 3}), make_knots<Rational>(3, {-1, -1, -1, -1, 2, 2, 2, 2}),
+          net};
 }
 
 const Rational kU = Rational(5) / 2, kV = Rational(1) / 8;
@@ -32,9 +34,8 @@ TYPED_TEST(RationalPatchLaws, Law1_WeightTimesPointIsTheHomogeneousPoint) {
   const auto exact = some_patch();
   const auto h = derivative_by_definition(exact, kU, kV, 0, 0);
   const Vec<Rational, 3> truth{{h[0] / h[3], h[1] / h[3], h[2] / h[3]}};
-  check<TypeParam>(truth, [&]<class S>() {
-    return evaluate_rational(make_patch<S>(exact), make_knot<S>(kU), make_knot<S>(kV));
-  });
+  check<TypeParam>(
+      truth, [&]<class S>() { return evaluate_rational(make_patch<S>(exact), make_knot<S>(kU), make_knot<S>(kV)); });
 }
 
 // The derivatives satisfy Leibniz' rule for A = w·S: Σ C(k,a) C(l,b) w^{ab} S^{k−a,l−b} = A^{kl}, which determines them.
@@ -148,12 +149,14 @@ TEST(RationalPatch, SphereWithRootWeights) {
 
 // A half sphere of degree (3, 3) with collapsed edges and weights down to 1/9, from another program's tests.
 TEST(RationalPatch, ReferenceHemisphere) {
-  const auto file = std::filesystem::path(PATCHPROOF_SOURCE_DIR) / "../shared/data/eval_tables/tinynurbs_hemisphere.json";
+  const auto file =
+      std::filesystem::path(PATCHPROOF_SOURCE_DIR) / "../shared/data/eval_tables/tinynurbs_hemisphere.json";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the reference data " << file << " is not here";
   const auto json = nlohmann::json::parse(std::ifstream(file)).at("surface");
   std::vector<Vec<Rational, 3>> points;
   std::vector<Rational> weights;
-  for (const auto& p : json.at("control_points")) points.push_back({{p[0].get<int>(), p[1].get<int>(), p[2].get<int>()}});
+  for (const auto& p : json.at("control_points"))
+    points.push_back({{p[0].get<int>(), p[1].get<int>(), p[2].get<int>()}});
   for (const auto& w : json.at("weights")) weights.push_back(parse_scalar<Rational>(w.get<std::string>()).value());
   const KnotVector<Rational> cubic = KnotVector<Rational>::bezier(3);
   const auto s = with_weights(BsplinePatch<Rational, 3>(cubic, cubic, points), weights).value();

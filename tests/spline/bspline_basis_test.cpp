@@ -183,9 +183,9 @@ TEST(BsplineBasisExact, Law5_BezierKnotsGiveBernsteinPolynomials) {
 
 TEST(BsplineBasisExact, ContractsAreChecked) {
   const Knots k = Knots::make(2, cases[3].knots).value();
-  EXPECT_THROW(basis_in_span<Rational>(k, 1, q(0)), contract_error);   // before the domain
-  EXPECT_THROW(basis_in_span<Rational>(k, 4, q(1)), contract_error);   // an empty span
-  EXPECT_THROW(basis_in_span<Rational>(k, 7, q(2)), contract_error);   // behind the domain
+  EXPECT_THROW(basis_in_span<Rational>(k, 1, q(0)), contract_error);  // before the domain
+  EXPECT_THROW(basis_in_span<Rational>(k, 4, q(1)), contract_error);  // an empty span
+  EXPECT_THROW(basis_in_span<Rational>(k, 7, q(2)), contract_error);  // behind the domain
   EXPECT_THROW(basis_derivative(k, q(1), -1), contract_error);
   EXPECT_THROW(basis(k, q(5, 2)), contract_error);
 }

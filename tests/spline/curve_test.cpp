@@ -71,9 +71,8 @@ TYPED_TEST(CurveLaws, Law1And2_ValuesAndDerivativesFromBothSides) {
         std::vector<Point> exact;
         for (int order = 0; order <= 3; ++order) exact.push_back(piece_at(c, span, t, order));
         check<TypeParam>(exact, [&]<class S>() { return derivatives(make_curve<S>(c), make_knot<S>(t), 3, side); });
-        check<TypeParam>(exact[1], [&]<class S>() {
-          return derivative_in_span<S>(make_curve<S>(c), span, make<S>(t), 1);
-        });
+        check<TypeParam>(exact[1],
+                         [&]<class S>() { return derivative_in_span<S>(make_curve<S>(c), span, make<S>(t), 1); });
       }
   }
 }
@@ -89,9 +88,8 @@ TYPED_TEST(CurveLaws, Law3_DerivativeCurve) {
 TYPED_TEST(CurveLaws, Law4_BlossomOfASpan) {
   const Curve c = curve_of(2, off_zero, seven);
   const Numbers arguments = {q(1, 2), q(7)};
-  check<TypeParam>(blossom(c, 3, arguments), [&]<class S>() {
-    return blossom_in_span<S>(make_curve<S>(c), 3, make_numbers<S>(arguments));
-  });
+  check<TypeParam>(blossom(c, 3, arguments),
+                   [&]<class S>() { return blossom_in_span<S>(make_curve<S>(c), 3, make_numbers<S>(arguments)); });
 }
 
 // Data in one scalar, parameter and result in another.
@@ -229,9 +227,9 @@ TEST(CurveExact, Law2_KnownValuesAtMultipleKnots) {
                               {at(q(0), q(0)), at(q(1), q(2)), at(q(3), q(2)), at(q(9), q(9))});
   expect(over, q(1, 2), Side::right, {at(q(5, 4), q(3, 2)), at(q(3), q(2)), at(q(2), q(-4))});
   expect(over, q(1), Side::right, {at(q(3), q(2)), at(q(4), q(0)), at(q(2), q(-4))});
-  const Curve closed = curve_of(2, {q(0), q(1), q(2), q(3), q(4), q(5), q(6), q(7), q(8)},
-                                {at(q(0), q(1)), at(q(0), q(0)), at(q(1), q(0)), at(q(1), q(1)), at(q(0), q(1)),
-                                 at(q(0), q(0))});
+  const Curve closed =
+      curve_of(2, {q(0), q(1), q(2), q(3), q(4), q(5), q(6), q(7), q(8)},
+               {at(q(0), q(1)), at(q(0), q(0)), at(q(1), q(0)), at(q(1), q(1)), at(q(0), q(1)), at(q(0), q(0))});
   expect(closed, q(2), Side::left, {at(q(0), q(1, 2)), at(q(0), q(-1)), at(q(1), q(1))});
   expect(closed, q(3), Side::right, {at(q(1, 2), q(0)), at(q(1), q(0)), at(q(-1), q(1))});
 }

@@ -19,13 +19,12 @@ Point at(const Rational& x, const Rational& y) { return {{x, y}}; }
 Homogeneous h(int x, int y, int w) { return {{q(x), q(y), q(w)}}; }
 
 const Conic quarter_circle = Conic::bezier({h(1, 0, 1), h(1, 1, 1), h(0, 2, 2)});
-const Conic half_circle = Conic::bezier({h(1, 0, 1), h(0, 1, 0), h(-1, 0, 1)});            // a weight is 0
-const Conic three_quarters = Conic::bezier({h(1, 0, 1), h(-1, -1, -1), h(0, 2, 2)});       // a weight is negative
-const Conic pole = Conic::bezier({h(0, 0, 1), h(-1, -1, -1), h(2, 0, 1)});                 // W = (1 − 2t)²
-const Conic full_circle(KnotVector<Rational>::make(2, {q(0), q(0), q(0), q(1), q(1), q(2), q(2), q(3), q(3), q(4), q(4),
-                                                       q(4)}).value(),
-                        {h(1, 0, 1), h(1, 1, 1), h(0, 2, 2), h(-1, 1, 1), h(-1, 0, 1), h(-1, -1, 1), h(0, -2, 2),
-                         h(1, -1, 1), h(1, 0, 1)});
+const Conic half_circle = Conic::bezier({h(1, 0, 1), h(0, 1, 0), h(-1, 0, 1)});       // a weight is 0
+const Conic three_quarters = Conic::bezier({h(1, 0, 1), h(-1, -1, -1), h(0, 2, 2)});  // a weight is negative
+const Conic pole = Conic::bezier({h(0, 0, 1), h(-1, -1, -1), h(2, 0, 1)});            // W = (1 − 2t)²
+const Conic full_circle(
+    KnotVector<Rational>::make(2, {q(0), q(0), q(0), q(1), q(1), q(2), q(2), q(3), q(3), q(4), q(4), q(4)}).value(),
+    {h(1, 0, 1), h(1, 1, 1), h(0, 2, 2), h(-1, 1, 1), h(-1, 0, 1), h(-1, -1, 1), h(0, -2, 2), h(1, -1, 1), h(1, 0, 1)});
 
 template <class T>
 class HomogeneousLaws : public ScalarTest<T> {};
@@ -45,8 +44,8 @@ TYPED_TEST(HomogeneousLaws, Law3_KnownConics) {
     check<TypeParam>(exact, [&]<class S>() { return rational_derivatives(make_curve<S>(c), make_knot<S>(t), 2); });
     check<TypeParam>(exact[0], [&]<class S>() { return evaluate_rational(make_curve<S>(c), make_knot<S>(t)); });
   };
-  expect(quarter_circle, q(1, 4), {at(q(15, 17), q(8, 17)), at(q(-256, 289), q(480, 289)),
-                                   at(q(-13312, 4913), q(-12032, 4913))});
+  expect(quarter_circle, q(1, 4),
+         {at(q(15, 17), q(8, 17)), at(q(-256, 289), q(480, 289)), at(q(-13312, 4913), q(-12032, 4913))});
   expect(half_circle, q(1, 2), {at(q(0), q(1)), at(q(-4), q(0)), at(q(0), q(-16))});
   expect(half_circle, q(1, 4), {at(q(4, 5), q(3, 5)), at(q(-48, 25), q(64, 25)), at(q(-1408, 125), q(-256, 125))});
   expect(three_quarters, q(1, 2), {at(q(-1), q(0)), at(q(0), q(8)), at(q(64), q(-32))});
@@ -100,8 +99,8 @@ TEST(HomogeneousExact, Law3_DerivativesOfTheQuotient) {
 
 TEST(HomogeneousExact, Law3_FullCircleStaysOnTheCircleInBothForms) {
   const Quadratic half_root(Rational(0), q(1, 2), 2), one(1), zero(0);  // √2/2
-  const auto octant = BsplineCurve<Quadratic, 3>::bezier(
-      {{{one, zero, one}}, {{half_root, half_root, half_root}}, {{zero, one, one}}});
+  const auto octant =
+      BsplineCurve<Quadratic, 3>::bezier({{{one, zero, one}}, {{half_root, half_root, half_root}}, {{zero, one, one}}});
   for (int i = 0; i <= 8; ++i) {
     const Point p = evaluate_rational(full_circle, q(i, 2));
     EXPECT_EQ(p[0] * p[0] + p[1] * p[1], 1);

@@ -17,7 +17,8 @@ TYPED_TEST_SUITE(KnotRatio, AllScalars, ScalarNames);
 // The knots are doubles, their ratio 1/3 is not: the bounds must show it.
 TYPED_TEST(KnotRatio, Law1And2_ExactOrBoundedFromKnotsAndFromParameters) {
   const Rational a = q(45, 32), b = q(129, 32), t = q(73, 32);
-  check<TypeParam>(q(1, 3), [&]<class S>() { return knot_ratio<S>(make_knot<S>(t), make_knot<S>(a), make_knot<S>(b)); });
+  check<TypeParam>(q(1, 3),
+                   [&]<class S>() { return knot_ratio<S>(make_knot<S>(t), make_knot<S>(a), make_knot<S>(b)); });
   check<TypeParam>(q(1, 3), [&]<class S>() { return knot_ratio<S>(make<S>(t), make_knot<S>(a), make_knot<S>(b)); });
   check<TypeParam>(q(40, 21), [&]<class S>() { return knot_rate<S>(5, make_knot<S>(a), make_knot<S>(b)); });
   check<TypeParam>(q(-1, 3), [&]<class S>() {  // not clamped: the formula is a polynomial in t

@@ -26,8 +26,8 @@ BsplinePatch<T, N> make_patch(const BsplinePatch<Rational, N>& s) {
 
 // ∂^(k+l) S / ∂u^k ∂v^l by multiplying out the definition of the basis, with no evaluation code of the library.
 template <std::size_t N>
-Vec<Rational, N> derivative_by_definition(const BsplinePatch<Rational, N>& s, const Rational& u, const Rational& v, int k,
-                                          int l, Side side_u = Side::right, Side side_v = Side::right) {
+Vec<Rational, N> derivative_by_definition(const BsplinePatch<Rational, N>& s, const Rational& u, const Rational& v,
+                                          int k, int l, Side side_u = Side::right, Side side_v = Side::right) {
   const auto values = [](const KnotVector<Rational>& knots, const Rational& t, int order, Side side) {
     const int span = knots.find_span(t, side);
     std::vector<Rational> out;
@@ -69,8 +69,7 @@ void expect_same_surface(const BsplinePatch<Rational, N>& a, const BsplinePatch<
   ASSERT_TRUE(a.domain() == b.domain());
   const auto vs = deciding_parameters(a.knots(Direction::v), b.knots(Direction::v));
   for (const Rational& u : deciding_parameters(a.knots(Direction::u), b.knots(Direction::u)))
-    for (const Rational& v : vs)
-      ASSERT_EQ(evaluate(a, u, v).c, evaluate(b, u, v).c) << "at u = " << u << ", v = " << v;
+    for (const Rational& v : vs) ASSERT_EQ(evaluate(a, u, v).c, evaluate(b, u, v).c) << "at u = " << u << ", v = " << v;
 }
 
 }  // namespace patchproof::test

@@ -197,7 +197,9 @@ void check(const Exact& exact, F f) {
 class RandomRationals {
  public:
   explicit RandomRationals(std::uint64_t seed = 20240229)
-      : seed_(chosen(seed)), engine_(seed_), trace_(__FILE__, __LINE__, "PATCHPROOF_TEST_SEED=" + std::to_string(seed_)) {}
+      : seed_(chosen(seed)),
+        engine_(seed_),
+        trace_(__FILE__, __LINE__, "PATCHPROOF_TEST_SEED=" + std::to_string(seed_)) {}
 
   // An integer in [low, high].
   int integer(int low, int high) {

@@ -20,7 +20,6 @@ namespace patchproof {
 Result<ModelFile> read_model(const std::string& path, Decimals decimals = Decimals::exact);
 
 // Reads bytes as if they stood in a file of that name.
-Result<ModelFile> read_model_text(std::string_view bytes, const std::string& path,
-                                  Decimals decimals = Decimals::exact);
+Result<ModelFile> read_model_text(std::string_view bytes, const std::string& path, Decimals decimals = Decimals::exact);
 
 }  // namespace patchproof

@@ -21,8 +21,8 @@ namespace patchproof {
 
 struct ReportedSide {
   int patch = 0;
-  std::string edge;               // "u_min", or "u = 1/2" for a line inside the patch
-  double begin = 0, end = 1;      // parameters, in the order in which the join runs through them
+  std::string edge;                    // "u_min", or "u = 1/2" for a line inside the patch
+  double begin = 0, end = 1;           // parameters, in the order in which the join runs through them
   std::string exact_begin, exact_end;  // the same as exact numbers
 };
 
@@ -34,7 +34,7 @@ struct ReportedJoin {
   PairingKind pairing = PairingKind::identity;
   // Exact parameters on both sides that belong together, for a piecewise linear pairing; else the ranges say it all.
   std::vector<std::array<std::string, 2>> pairing_nodes;
-  std::string pairing_ratio;      // exact r of a rational linear pairing, else ""
+  std::string pairing_ratio;  // exact r of a rational linear pairing, else ""
   Certificate certificate;
   Judgement judgement;
 };
@@ -55,8 +55,8 @@ struct Report {
 
 struct CertifyOptions {
   Request request;
-  double match_length = 0;  // 0: 1e-6 of the diagonal
-  int jobs = 0;             // 0: one thread per processor
+  double match_length = 0;                                          // 0: 1e-6 of the diagonal
+  int jobs = 0;                                                     // 0: one thread per processor
   std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
 };
 

@@ -14,8 +14,8 @@ enum class Verdict { proven, refuted, undecided };
 
 // A point of the join in terms of both patches.
 struct Place {
-  std::array<double, 2> a{}, b{};   // (u, v) on patch A and on patch B
-  std::array<double, 3> point{};    // on patch A, in model units
+  std::array<double, 2> a{}, b{};  // (u, v) on patch A and on patch B
+  std::array<double, 3> point{};   // on patch A, in model units
 };
 
 // Exact numbers that refute a class: at these parameters, this quantity is not zero (or has the wrong sign).
@@ -23,8 +23,8 @@ struct Witness {
   // "x - y", "x_s + y_s", "x_ss - y_ss", "det(x_t, x_s, y_s)", "(x_t × x_s) · (y_t × y_s)": t is the parameter of line A
   // (y_t through the pairing), s the parameter distance into each patch.
   std::string quantity;
-  std::array<std::string, 2> a, b;     // exact (u, v) on patch A and patch B
-  std::vector<std::string> values;     // exact components
+  std::array<std::string, 2> a, b;  // exact (u, v) on patch A and patch B
+  std::vector<std::string> values;  // exact components
 };
 
 // proven: holds identically along the whole join.  refuted: with a witness.  undecided: with a reason.
@@ -47,9 +47,9 @@ enum class Orientation { smooth, cusp, mixed, unknown };
 
 // A place or range where the first-order normal of one side vanishes, or where there is no tangent plane.
 struct Degeneracy {
-  char side = 'a';           // 'a' or 'b'
-  double begin = 0, end = 0; // enclosure in the parameter along line A
-  std::string what;          // "the normal vanishes; its limit is used", "no tangent plane up to second order"
+  char side = 'a';            // 'a' or 'b'
+  double begin = 0, end = 0;  // enclosure in the parameter along line A
+  std::string what;           // "the normal vanishes; its limit is used", "no tangent plane up to second order"
 };
 
 struct Certificate {
@@ -57,10 +57,10 @@ struct Certificate {
   std::optional<std::string> ratio;  // exact λ > 0 with y_s = −λ x_s; "1" when C1
   EnclosedMaximum gap;               // largest distance of paired points, in model units
   EnclosedMaximum angle;             // largest angle between the oriented normals, degrees in [0, 180]; 180 is a cusp
-  EnclosedMaximum plane_angle;       // largest angle between the tangent planes, degrees in [0, 90], blind to orientation
+  EnclosedMaximum plane_angle;  // largest angle between the tangent planes, degrees in [0, 90], blind to orientation
   Orientation orientation = Orientation::unknown;
   std::vector<Degeneracy> degenerate;
-  std::string rung;                  // what decided: "interval", "integer", "quadratic"
+  std::string rung;  // what decided: "interval", "integer", "quadratic"
 };
 
 const char* to_string(Verdict verdict);

@@ -59,7 +59,7 @@ bool is_c2(const JoinForms<R>& forms) {
 // n = t^at_zero s^at_one F n̂.
 template <ExactRing R>
 struct ReducedNormal {
-  FormVector<R> n;                                   // n̂; all empty when no normal was found up to second order
+  FormVector<R> n;                                       // n̂; all empty when no normal was found up to second order
   BinaryForm<R> factor = BinaryForm<R>::constant(R(1));  // F
   EndOrders ends;
   NormalOrder order = NormalOrder::first;
@@ -142,8 +142,7 @@ std::vector<std::array<Interval, 3>> enclose_vector(const FormVector<R>& f) {
     }
   for (int c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < scaled[c].size(); ++i)
-      out[i][c] = scale_by_power_of_two(scaled[c][i].mantissa, scaled[c][i].exponent - exponent) /
-                  binomial[i];
+      out[i][c] = scale_by_power_of_two(scaled[c][i].mantissa, scaled[c][i].exponent - exponent) / binomial[i];
   return out;
 }
 
@@ -168,7 +167,8 @@ FormVector<R> to_ring(const FormVector<value_field_t<R>>& f) {
     FormVector<R> out;
     for (int c = 0; c < 3; ++c) {
       std::vector<R> a;
-      for (const Rational& x : f[c].coefficients()) a.push_back(numerator(x) * (denominator / boost::multiprecision::denominator(x)));
+      for (const Rational& x : f[c].coefficients())
+        a.push_back(numerator(x) * (denominator / boost::multiprecision::denominator(x)));
       out[c] = BinaryForm<R>(std::move(a));
     }
     return out;
@@ -203,7 +203,8 @@ ReducedNormal<R> reduce_normal(const SideForms<R>& side) {
     const FormVector<F> f{over_field(n[0]), over_field(n[1]), over_field(n[2])};
     const BinaryForm<F> common = gcd(gcd(f[0], f[1]), f[2]);
     if (common.degree() > 0) {
-      n = detail::to_ring<R>({divide_exactly(f[0], common), divide_exactly(f[1], common), divide_exactly(f[2], common)});
+      n = detail::to_ring<R>(
+          {divide_exactly(f[0], common), divide_exactly(f[1], common), divide_exactly(f[2], common)});
       reduced.factor = detail::to_ring<R>({common, BinaryForm<F>(), BinaryForm<F>()})[0];
     }
     reduced.zero_free = true;  // components without a common factor have no common root

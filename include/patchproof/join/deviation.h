@@ -47,7 +47,7 @@ struct DeviationBound {
   double lower = 0, upper = 0;  // gap: model units; angle: degrees
   int piece = 0;                // the witness of `lower`: a piece and a local parameter in [0, 1], a dyadic number
   double t = 0;
-  bool converged = true;        // upper − lower ≤ 1 % of upper
+  bool converged = true;  // upper − lower ≤ 1 % of upper
 };
 
 // ERRORS none: an undefined quotient (0/0 in a hull) gives upper = +infinity (gap) or 180 (angle) and !converged.

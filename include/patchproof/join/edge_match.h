@@ -50,7 +50,7 @@ EdgeMatch<T> match_edges(const std::vector<const BsplinePatch<T, 4>*>& patches, 
 
 // The pairing of two whole edges, for joins that a file declares: affine, or rational linear when that makes them equal.
 template <ExactField T>
-Join<T> whole_edge_join(const std::vector<const BsplinePatch<T, 4>*>& patches, int patch_a, EdgeName edge_a, int patch_b,
-                        EdgeName edge_b, bool reversed);
+Join<T> whole_edge_join(const std::vector<const BsplinePatch<T, 4>*>& patches, int patch_a, EdgeName edge_a,
+                        int patch_b, EdgeName edge_b, bool reversed);
 
 }  // namespace patchproof

@@ -55,8 +55,9 @@ enum class WeightedPoints { cartesian, homogeneous };
 struct BicubicJoinRows {
   using Row = std::array<std::array<double, 3>, 4>;
   Row edge{}, behind_a{}, behind_b{};
-  std::optional<std::array<std::array<double, 4>, 3>> weights = std::nullopt;  // of edge, behind_a, behind_b; none: all 1
-  WeightedPoints points = WeightedPoints::cartesian;                           // without weights they are the same
+  std::optional<std::array<std::array<double, 4>, 3>> weights =
+      std::nullopt;                                   // of edge, behind_a, behind_b; none: all 1
+  WeightedPoints points = WeightedPoints::cartesian;  // without weights they are the same
 };
 
 enum class FixedG1 { proven_smooth, refuted, cannot_tell };

@@ -97,7 +97,7 @@ BinaryForm<R> coplanarity(const SideForms<R>& a, const SideForms<R>& b);
 
 template <Ring R>
 FormVector<R> normal(const SideForms<R>& side, NormalOrder order) {
-  const auto &X = side.position;
+  const auto& X = side.position;
   const auto& w = side.weight;
   const auto term = [](const BinaryForm<R>& weight, const FormVector<R>& f, const FormVector<R>& g) {
     return weight.is_empty() ? FormVector<R>{} : weight * cross(f, g);

@@ -62,7 +62,8 @@ void shift_origin(SideRows<T>& rows, const Vec<T, 3>& o) {
 template <ExactField T>
 std::vector<JoinPiece<T>> join_pieces(const BsplinePatch<T, 4>& a, const BsplinePatch<T, 4>& b, const Join<T>& join) {
   const Pairing<T>& pairing = join.pairing;
-  PATCHPROOF_REQUIRES(pairing.a.size() >= 2 && pairing.a.size() == pairing.b.size(), "join_pieces: the pairing needs nodes");
+  PATCHPROOF_REQUIRES(pairing.a.size() >= 2 && pairing.a.size() == pairing.b.size(),
+                      "join_pieces: the pairing needs nodes");
   const auto rows_a = cross_boundary_rows(a, join.line_a, 2);
   const auto rows_b = cross_boundary_rows(b, join.line_b, 2);
   std::vector<JoinPiece<T>> pieces;

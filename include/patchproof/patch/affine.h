@@ -118,8 +118,7 @@ AffineMap<T> rotation(const Quaternion<T>& q) {
     Vec<T, 3> e{{T(0), T(0), T(0)}};
     e[c] = T(1);
     // q·e·q̄ = (s² − v·v) e + 2 (v·e) v + 2 s (v × e)
-    const Vec<T, 3> image =
-        (q.s * q.s - dot(q.v, q.v)) * e + (T(2) * q.v[c]) * q.v + (T(2) * q.s) * cross(q.v, e);
+    const Vec<T, 3> image = (q.s * q.s - dot(q.v, q.v)) * e + (T(2) * q.v[c]) * q.v + (T(2) * q.s) * cross(q.v, e);
     for (int r = 0; r < 3; ++r) out.linear[r][c] = image[r] / square;
   }
   out.shift = {{T(0), T(0), T(0)}};

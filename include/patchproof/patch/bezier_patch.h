@@ -38,9 +38,9 @@ class BezierPatch {
   // b_ij = net[i · (degree_v + 1) + j]. REQUIRES degrees ≥ 0 and (degree_u + 1)(degree_v + 1) points.
   BezierPatch(int degree_u, int degree_v, std::vector<Point> net)
       : degree_u_(degree_u), degree_v_(degree_v), net_(std::move(net)) {
-    PATCHPROOF_REQUIRES(degree_u >= 0 && degree_v >= 0 &&
-                            net_.size() == (degree_u + std::size_t(1)) * (degree_v + std::size_t(1)),
-                        "BezierPatch: the degrees do not fit the net");
+    PATCHPROOF_REQUIRES(
+        degree_u >= 0 && degree_v >= 0 && net_.size() == (degree_u + std::size_t(1)) * (degree_v + std::size_t(1)),
+        "BezierPatch: the degrees do not fit the net");
   }
 
   int degree(Direction d) const { return d == Direction::u ? degree_u_ : degree_v_; }

@@ -49,8 +49,10 @@ class BsplinePatch {
   static Result<BsplinePatch> make(KnotVector<K> u, KnotVector<K> v, std::vector<Point> net) {
     const std::size_t count = static_cast<std::size_t>(u.control_count()) * v.control_count();
     if (net.size() != count)
-      return Error{ErrorCode::wrong_count, "", "the knots need " + std::to_string(u.control_count()) + " x " +
-                   std::to_string(v.control_count()) + " control points", std::to_string(net.size())};
+      return Error{ErrorCode::wrong_count, "",
+                   "the knots need " + std::to_string(u.control_count()) + " x " + std::to_string(v.control_count()) +
+                       " control points",
+                   std::to_string(net.size())};
     return BsplinePatch(std::move(u), std::move(v), std::move(net));
   }
   // REQUIRES what make() checks.
@@ -65,9 +67,7 @@ class BsplinePatch {
   int count(Direction d) const { return knots(d).control_count(); }
   const Point& point(int i, int j) const { return net_[static_cast<std::size_t>(i) * v_.control_count() + j]; }
   const std::vector<Point>& net() const { return net_; }
-  ParameterBox<K> domain() const {
-    return {u_.domain_begin(), u_.domain_end(), v_.domain_begin(), v_.domain_end()};
-  }
+  ParameterBox<K> domain() const { return {u_.domain_begin(), u_.domain_end(), v_.domain_begin(), v_.domain_end()}; }
 
  private:
   KnotVector<K> u_, v_;

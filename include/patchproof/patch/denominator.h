@@ -44,7 +44,7 @@ struct DenominatorVerdict {
 };
 
 struct DenominatorLimits {
-  int halvings = 20;        // per direction, at most 30
+  int halvings = 20;          // per direction, at most 30
   long averages = 1'000'000;  // of numbers, per patch
 };
 
@@ -72,8 +72,9 @@ K at_fraction(const K& begin, const K& end, long numerator, long denominator) {
 template <Ring T, OrderedField K>
 ParameterBox<K> box_of(const ParameterBox<K>& whole, const HalvedPiece<T>& piece) {
   const long nu = 1L << piece.du, nv = 1L << piece.dv;
-  return {at_fraction(whole.u_begin, whole.u_end, piece.iu, nu), at_fraction(whole.u_begin, whole.u_end, piece.iu + 1, nu),
-          at_fraction(whole.v_begin, whole.v_end, piece.iv, nv), at_fraction(whole.v_begin, whole.v_end, piece.iv + 1, nv)};
+  return {
+      at_fraction(whole.u_begin, whole.u_end, piece.iu, nu), at_fraction(whole.u_begin, whole.u_end, piece.iu + 1, nu),
+      at_fraction(whole.v_begin, whole.v_end, piece.iv, nv), at_fraction(whole.v_begin, whole.v_end, piece.iv + 1, nv)};
 }
 
 // The fraction with the smallest denominator in [low, high] / n, found by descending the Stern–Brocot tree; empty when it
@@ -128,7 +129,7 @@ DenominatorVerdict<K> certify_piece(const BezierPatch<T, 1>& piece, const Parame
       }
     if (no_coefficient_against(box.net, expected)) continue;
 
-    const bool can_u = p > 0 && box.du < limits.halvings, can_v = q > 0 && box.dv < limits.halvings;
+    const bool can_u = p > 0 && box.du<limits.halvings, can_v = q> 0 && box.dv < limits.halvings;
     if ((!can_u && !can_v) || averages_left <= 0) {
       // A box beside the zero may stay open as well as the one around it, so look a little further.
       const auto x = simplest_fraction(box.iu - 1, box.iu + 2, 1L << box.du);

@@ -48,7 +48,8 @@ std::optional<BsplinePatch<T, N, K>> try_map_rows(const BsplinePatch<T, N, K>& p
         return image->points();
       });
   if (!possible) return std::nullopt;
-  if (d == Direction::u) return BsplinePatch<T, N, K>(std::move(knots), patch.knots(Direction::v), std::move(net.points));
+  if (d == Direction::u)
+    return BsplinePatch<T, N, K>(std::move(knots), patch.knots(Direction::v), std::move(net.points));
   return BsplinePatch<T, N, K>(patch.knots(Direction::u), std::move(knots), std::move(net.points));
 }
 
@@ -66,7 +67,8 @@ BsplinePatch<T, N, K> insert_knot(const BsplinePatch<T, N, K>& patch, Direction 
 
 // The same surface with t of at least the given multiplicity.
 template <Ring T, std::size_t N, OrderedField K>
-BsplinePatch<T, N, K> raise_multiplicity(const BsplinePatch<T, N, K>& patch, Direction d, const K& t, int multiplicity) {
+BsplinePatch<T, N, K> raise_multiplicity(const BsplinePatch<T, N, K>& patch, Direction d, const K& t,
+                                         int multiplicity) {
   return map_rows(patch, d, [&](const auto& c) { return raise_multiplicity(c, t, multiplicity); });
 }
 
@@ -122,7 +124,8 @@ BsplinePatch<T, N, K> restrict(const BsplinePatch<T, N, K>& patch, const Paramet
 
 // The parts before and after t. REQUIRES domain_begin < t < domain_end.
 template <Ring T, std::size_t N, OrderedField K>
-std::pair<BsplinePatch<T, N, K>, BsplinePatch<T, N, K>> split(const BsplinePatch<T, N, K>& patch, Direction d, const K& t) {
+std::pair<BsplinePatch<T, N, K>, BsplinePatch<T, N, K>> split(const BsplinePatch<T, N, K>& patch, Direction d,
+                                                              const K& t) {
   const KnotVector<K>& knots = patch.knots(d);
   return {restrict(patch, d, knots.domain_begin(), t), restrict(patch, d, t, knots.domain_end())};
 }

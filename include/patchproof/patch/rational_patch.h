@@ -29,8 +29,7 @@ namespace patchproof {
 
 // The affine derivatives from the homogeneous ones at the same place; a table of the same orders.
 template <Field T, std::size_t M>
-  requires(M >= 2)
-PartialDerivatives<T, M - 1> rational_derivatives(const PartialDerivatives<T, M>& homogeneous);
+requires(M >= 2) PartialDerivatives<T, M - 1> rational_derivatives(const PartialDerivatives<T, M>& homogeneous);
 
 // The affine point S(u,v).
 template <Field T, std::size_t M, OrderedField K>
@@ -67,8 +66,7 @@ BsplinePatch<T, 4, K> to_homogeneous(const BsplinePatch<T, 3, K>& patch);
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <Field T, std::size_t M>
-  requires(M >= 2)
-PartialDerivatives<T, M - 1> rational_derivatives(const PartialDerivatives<T, M>& homogeneous) {
+requires(M >= 2) PartialDerivatives<T, M - 1> rational_derivatives(const PartialDerivatives<T, M>& homogeneous) {
   const T& weight = homogeneous.at(0, 0)[M - 1];
   PATCHPROOF_REQUIRES(!detail::is_certainly_zero(weight), "the homogeneous point lies at infinity: its weight is zero");
   const int order_u = homogeneous.order_u(), order_v = homogeneous.order_v();
@@ -126,8 +124,9 @@ Vec<T, 3> scaled_normal(const Vec<T, 4>& point, const Vec<T, 4>& du, const Vec<T
 template <Ring T, OrderedField K>
 Result<BsplinePatch<T, 4, K>> with_weights(const BsplinePatch<T, 3, K>& patch, const std::vector<T>& weights) {
   if (weights.size() != patch.net().size())
-    return Error{ErrorCode::wrong_count, "", "the net has " + std::to_string(patch.net().size()) +
-                 " control points, each needs a weight", std::to_string(weights.size())};
+    return Error{ErrorCode::wrong_count, "",
+                 "the net has " + std::to_string(patch.net().size()) + " control points, each needs a weight",
+                 std::to_string(weights.size())};
   std::size_t next = 0;
   return map_points(patch, [&](const Vec<T, 3>& p) { return to_homogeneous(p, weights[next++]); });
 }

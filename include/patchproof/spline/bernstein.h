@@ -119,8 +119,7 @@ std::vector<P> elevate_degree(std::vector<P> points, int times = 1);
 
 // The same P with one control point less, when there is such a curve. Degree 0 has none.
 template <class P>
-  requires ExactField<scalar_of_t<P>>
-std::optional<std::vector<P>> reduce_degree(const std::vector<P>& points);
+requires ExactField<scalar_of_t<P>> std::optional<std::vector<P>> reduce_degree(const std::vector<P>& points);
 
 // P run backwards.
 template <class P>
@@ -185,7 +184,8 @@ P derivative(std::vector<P> points, const scalar_of_t<P>& t, int order) {
 
 template <class P>
 P blossom(std::vector<P> points, const std::vector<scalar_of_t<P>>& arguments) {
-  PATCHPROOF_REQUIRES(!points.empty() && arguments.size() == points.size() - 1, "blossom: as many arguments as the degree");
+  PATCHPROOF_REQUIRES(!points.empty() && arguments.size() == points.size() - 1,
+                      "blossom: as many arguments as the degree");
   std::size_t count = points.size() - 1;
   for (const auto& t : arguments) {
     for (std::size_t i = 0; i < count; ++i) points[i] = between(t, points[i], points[i + 1]);
@@ -235,8 +235,7 @@ std::vector<P> elevate_degree(std::vector<P> points, int times) {
 
 // Elevation q → p reads p_i = (i q_{i−1} + (n−i) q_i)/n, solved for q_i from the left; the last point is the test.
 template <class P>
-  requires ExactField<scalar_of_t<P>>
-std::optional<std::vector<P>> reduce_degree(const std::vector<P>& points) {
+requires ExactField<scalar_of_t<P>> std::optional<std::vector<P>> reduce_degree(const std::vector<P>& points) {
   using T = scalar_of_t<P>;
   PATCHPROOF_REQUIRES(!points.empty(), "reduce_degree: no control points");
   const int n = static_cast<int>(points.size()) - 1;

@@ -38,8 +38,9 @@ class BsplineCurve {
   // ERRORS wrong_count unless there are knots.control_count() points.
   static Result<BsplineCurve> make(KnotVector<K> knots, std::vector<Point> points) {
     if (static_cast<int>(points.size()) != knots.control_count())
-      return Error{ErrorCode::wrong_count, "", "the knots need " + std::to_string(knots.control_count()) +
-                   " control points", std::to_string(points.size())};
+      return Error{ErrorCode::wrong_count, "",
+                   "the knots need " + std::to_string(knots.control_count()) + " control points",
+                   std::to_string(points.size())};
     return BsplineCurve(std::move(knots), std::move(points));
   }
   // REQUIRES what make() checks.

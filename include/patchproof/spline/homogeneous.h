@@ -47,13 +47,11 @@ std::vector<Vec<T, N + 1>> to_homogeneous(const std::vector<Vec<T, N>>& points, 
 
 // The affine derivatives of orders 0…k from the homogeneous ones of orders 0…k, at one parameter. REQUIRES at least one.
 template <Field T, std::size_t M>
-  requires(M >= 2)
-std::vector<Vec<T, M - 1>> rational_derivatives(const std::vector<Vec<T, M>>& homogeneous);
+requires(M >= 2) std::vector<Vec<T, M - 1>> rational_derivatives(const std::vector<Vec<T, M>>& homogeneous);
 
 // The affine point A/w.
 template <Field T, std::size_t M>
-  requires(M >= 2)
-Vec<T, M - 1> project(const Vec<T, M>& h) {
+requires(M >= 2) Vec<T, M - 1> project(const Vec<T, M>& h) {
   return rational_derivatives(std::vector<Vec<T, M>>{h})[0];
 }
 
@@ -86,8 +84,7 @@ bool is_certainly_zero(const T& w) {
 }  // namespace detail
 
 template <Field T, std::size_t M>
-  requires(M >= 2)
-std::vector<Vec<T, M - 1>> rational_derivatives(const std::vector<Vec<T, M>>& homogeneous) {
+requires(M >= 2) std::vector<Vec<T, M - 1>> rational_derivatives(const std::vector<Vec<T, M>>& homogeneous) {
   PATCHPROOF_REQUIRES(!homogeneous.empty(), "rational_derivatives: the value at least");
   const T& weight = homogeneous[0][M - 1];
   PATCHPROOF_REQUIRES(!detail::is_certainly_zero(weight), "the homogeneous point lies at infinity: its weight is zero");

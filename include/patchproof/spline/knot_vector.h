@@ -83,16 +83,19 @@ template <OrderedField K>
 Result<KnotVector<K>> KnotVector<K>::make(int degree, std::vector<K> knots) {
   if (degree < 0) return Error{ErrorCode::bad_degree, "", "the degree is negative", std::to_string(degree)};
   if (knots.size() < 2 * (static_cast<std::size_t>(degree) + 1))
-    return Error{ErrorCode::wrong_count, "", "degree " + std::to_string(degree) + " needs at least " +
-                 std::to_string(2 * degree + 2) + " knots", std::to_string(knots.size())};
+    return Error{ErrorCode::wrong_count, "",
+                 "degree " + std::to_string(degree) + " needs at least " + std::to_string(2 * degree + 2) + " knots",
+                 std::to_string(knots.size())};
   for (std::size_t i = 1; i < knots.size(); ++i)
     if (knots[i] < knots[i - 1])
-      return Error{ErrorCode::decreasing_knots, "", "knot " + std::to_string(i) + " is smaller than knot " +
-                   std::to_string(i - 1), ""};
+      return Error{ErrorCode::decreasing_knots, "",
+                   "knot " + std::to_string(i) + " is smaller than knot " + std::to_string(i - 1), ""};
   KnotVector out(degree, std::move(knots));
   if (out.domain_begin() == out.domain_end())
-    return Error{ErrorCode::empty_domain, "", "the domain, from knot " + std::to_string(degree) + " to knot " +
-                 std::to_string(out.control_count()) + ", is empty", ""};
+    return Error{ErrorCode::empty_domain, "",
+                 "the domain, from knot " + std::to_string(degree) + " to knot " + std::to_string(out.control_count()) +
+                     ", is empty",
+                 ""};
   return out;
 }
 
