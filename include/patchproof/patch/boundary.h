@@ -69,15 +69,18 @@ std::vector<BsplineCurve<T, N, K>> cross_boundary_rows(const BsplinePatch<T, N, 
   std::vector<BsplineCurve<T, N, K>> rows;
   for (int k = 0; k <= order; ++k) {
     std::vector<Vec<T, N>> points(along.control_count());
+    bool first = true;
     for (int i = 0; i <= p; ++i) {
       const K inward = line.side == Side::left && k % 2 == 1 ? -weights[k][i] : weights[k][i];
       if (inward == K(0)) continue;
-      if (inward == K(1)) {
-        for (int j = 0; j < along.control_count(); ++j) points[j] += point(span - p + i, j);
-        continue;
-      }
+      const bool one = inward == K(1);
       const T weight = embed<T>(inward);
-      for (int j = 0; j < along.control_count(); ++j) points[j] += weight * point(span - p + i, j);
+      for (int j = 0; j < along.control_count(); ++j) {
+        const Vec<T, N>& d = point(span - p + i, j);
+        if (first) points[j] = one ? d : weight * d;
+        else points[j] += one ? d : weight * d;
+      }
+      first = false;
     }
     rows.emplace_back(along, std::move(points));
   }
