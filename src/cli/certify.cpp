@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -44,6 +45,17 @@ class ProgressBar {
   std::atomic<int> last_{-1};
   std::mutex mutex_;
 };
+
+// A number in [low, high]; not-a-number is none. (CLI::Range lets it pass.)
+CLI::Validator between(double low, double high) {
+  const std::string range = fmt::format("[{:g}, {:g}]", low, high);
+  return CLI::Validator(
+      [=](std::string& text) {
+        double x = 0;
+        return CLI::detail::lexical_cast(text, x) && low <= x && x <= high ? "" : text + " is not a number in " + range;
+      },
+      range);
+}
 
 int exit_code_of(Outcome outcome) {
   return outcome == Outcome::pass ? kProven : outcome == Outcome::fail ? kRefuted : kUndecided;
@@ -110,18 +122,24 @@ void add_certify(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"C0", "C1", "G1"}))
       ->option_text("C0|C1|G1");
   command->add_option("--gap", options->gap, "largest gap allowed, in the model's units")
-      ->check(CLI::Range(0.0, 1e300))->option_text("LENGTH");
+      ->check(between(0, 1e300))
+      ->option_text("LENGTH");
   command->add_option("--angle", options->angle, "largest normal angle allowed, in degrees")
-      ->check(CLI::Range(0.0, 180.0))->option_text("DEGREES");
-  command->add_option("--match", options->match,
-                      "which edges are looked at: those within this length of each other [1e-6 of the diagonal]")
-      ->check(CLI::Range(0.0, 1e300))->option_text("LENGTH");
+      ->check(between(0, 180))
+      ->option_text("DEGREES");
+  command
+      ->add_option("--match", options->match,
+                   "which edges are looked at: those within this length of each other [1e-6 of the diagonal]")
+      ->check(between(0, 1e300))
+      ->option_text("LENGTH");
   command->add_option("--json", options->json, "write the report as JSON ('-': to standard output, nothing else)")
       ->option_text("FILE|-");
   command->add_option("--jobs", options->jobs, "threads; the report does not depend on it [one per processor]")
-      ->check(CLI::Range(1, 1024))->option_text("N");
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
   command->add_option("--budget", options->budget, "time for one join before it ends undecided [10]")
-      ->check(CLI::Range(0.0, 1e6))->option_text("SECONDS");
+      ->check(between(0, 1e6))
+      ->option_text("SECONDS");
   add_decimals(*command, options->decimals);
   command->add_flag("--quiet", options->quiet, "print the summary only");
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -24,7 +24,8 @@ int report_error(const Error& error);
 // --decimals exact|binary64, for every command that reads a model.
 void add_decimals(CLI::App& command, Decimals& decimals);
 
-// Writes `text` to a file, or to standard output for "-": whole or not at all (a temporary file is renamed).
+// Writes `text` to a file, or to standard output for "-": whole or not at all (a temporary file is renamed;
+// devices and pipes are written to).
 // Returns an Error's exit code or 0.
 int write_output(const std::string& path, const std::string& text);
 

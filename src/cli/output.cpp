@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <map>
 
 #include "cli/commands.h"
@@ -23,19 +24,26 @@ void add_decimals(CLI::App& command, Decimals& decimals) {
 int write_output(const std::string& path, const std::string& text) {
   if (path == "-") {
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-    return written ? 0 : report_error({ErrorCode::cannot_open, "standard output", "cannot be written", std::strerror(errno)});
+    return written
+               ? 0
+               : report_error({ErrorCode::cannot_open, "standard output", "cannot be written", std::strerror(errno)});
   }
-  const std::string temporary = path + ".partial";
+  // A device or a pipe takes the bytes itself: renaming a file over it would replace it.
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(path, ignored).type();
+  const bool special = kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found &&
+                       kind != std::filesystem::file_type::directory;
+  const std::string target = special ? path : path + ".partial";
   const auto failed = [&] {
     const Error error{ErrorCode::cannot_open, path, "cannot be written", std::strerror(errno)};
-    std::remove(temporary.c_str());
+    if (!special) std::remove(target.c_str());
     return report_error(error);
   };
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  std::FILE* file = std::fopen(target.c_str(), "wb");
   if (!file) return failed();
   const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (std::fclose(file) != 0 || !written) return failed();
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) return failed();
+  if (!special && std::rename(target.c_str(), path.c_str()) != 0) return failed();
   return 0;
 }
 

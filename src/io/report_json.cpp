@@ -29,8 +29,11 @@ Json side(const Report& r, const ReportedSide& s) {
 
 Json join_json(const Report& r, const ReportedJoin& j) {
   const Certificate& c = j.certificate;
-  Json exact{{"C0", to_string(c.c0.verdict)}, {"C1", to_string(c.c1.verdict)}, {"C2", to_string(c.c2.verdict)},
-             {"G1", to_string(c.g1.verdict)}, {"ratio", c.ratio ? Json(*c.ratio) : Json(nullptr)}};
+  Json exact{{"C0", to_string(c.c0.verdict)},
+             {"C1", to_string(c.c1.verdict)},
+             {"C2", to_string(c.c2.verdict)},
+             {"G1", to_string(c.g1.verdict)},
+             {"ratio", c.ratio ? Json(*c.ratio) : Json(nullptr)}};
   Json pairing{{"kind", to_string(j.pairing)}};
   if (!j.pairing_nodes.empty()) pairing["nodes"] = j.pairing_nodes;
   if (!j.pairing_ratio.empty()) pairing["ratio"] = j.pairing_ratio;
@@ -38,9 +41,12 @@ Json join_json(const Report& r, const ReportedJoin& j) {
   for (const Degeneracy& d : c.degenerate)
     degenerate.push_back({{"side", std::string(1, d.side)}, {"range", {d.begin, d.end}}, {"what", d.what}});
   Json witness = Json::object(), reasons = Json::object();
-  for (const auto& [name, cls] : {std::pair<const char*, const ExactClass*>{"C0", &c.c0}, {"C1", &c.c1}, {"C2", &c.c2}, {"G1", &c.g1}}) {
+  for (const auto& [name, cls] :
+       {std::pair<const char*, const ExactClass*>{"C0", &c.c0}, {"C1", &c.c1}, {"C2", &c.c2}, {"G1", &c.g1}}) {
     if (cls->witness)
-      witness[name] = {{"quantity", cls->witness->quantity}, {"a", cls->witness->a}, {"b", cls->witness->b},
+      witness[name] = {{"quantity", cls->witness->quantity},
+                       {"a", cls->witness->a},
+                       {"b", cls->witness->b},
                        {"values", cls->witness->values}};
     if (!cls->reason.empty()) reasons[name] = cls->reason;
   }
@@ -83,13 +89,19 @@ Json summary_json(const Report& r) {
     gap = std::max(gap, j.certificate.gap.upper);
     angle = std::max(angle, j.certificate.angle.upper);
   }
-  return {{"pass", count[0]}, {"fail", count[1]}, {"undecided", count[2]}, {"worst_gap", number(gap)},
+  return {{"pass", count[0]},
+          {"fail", count[1]},
+          {"undecided", count[2]},
+          {"worst_gap", number(gap)},
           {"worst_angle_degrees", number(angle)}};
 }
 
-// nlohmann's dump() of `value`, which must be an object, without the closing brace.
+// On one line. File names need not be UTF-8; JSON must be.
+std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+// The same for an object, without the closing brace.
 std::string open_object(const Json& value) {
-  std::string text = value.dump();
+  std::string text = text_of(value);
   text.pop_back();
   return text;
 }
@@ -111,7 +123,7 @@ void write_json(std::ostream& out, const Report& r) {
                     {"notes", r.notes}}},
                   {"request", request_json(r)}};
   out << open_object(head) << ",\n\"joins\":[";
-  for (std::size_t i = 0; i < r.joins.size(); ++i) out << (i ? ",\n" : "\n") << join_json(r, r.joins[i]).dump();
+  for (std::size_t i = 0; i < r.joins.size(); ++i) out << (i ? ",\n" : "\n") << text_of(join_json(r, r.joins[i]));
   out << "],\n\"unmatched_edges\":[";
   for (std::size_t i = 0; i < r.unmatched.size(); ++i) {
     const EdgeRange& e = r.unmatched[i];
@@ -122,7 +134,10 @@ void write_json(std::ostream& out, const Report& r) {
   for (std::size_t i = 0; i < r.collapsed.size(); ++i) {
     const CollapsedEdge& e = r.collapsed[i];
     out << (i ? ",\n" : "\n")
-        << Json{{"patch", e.patch}, {"edge", to_string(e.edge)}, {"exactly", e.exactly}, {"tangent_plane", e.tangent_plane}}
+        << Json{{"patch", e.patch},
+                {"edge", to_string(e.edge)},
+                {"exactly", e.exactly},
+                {"tangent_plane", e.tangent_plane}}
                .dump();
   }
   out << "],\n\"summary\":" << summary_json(r).dump() << ",\n\"verdict\":\"" << to_string(r.outcome()) << "\"}\n";

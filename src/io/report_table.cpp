@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <numeric>
 #include <ostream>
@@ -16,10 +18,10 @@ namespace {
 std::string class_text(const Certificate& c) {
   const auto proven = [](const ExactClass& e) { return e.verdict == Verdict::proven; };
   if (!proven(c.c0)) return c.c0.verdict == Verdict::refuted ? "gap" : "undecided";
-  const std::string tangent = proven(c.g1)                               ? ""
-                              : c.g1.verdict == Verdict::undecided       ? ", G1 undecided"
-                              : c.angle.lower >= 180                     ? ", cusp"
-                                                                         : ", not G1";
+  const std::string tangent = proven(c.g1)                         ? ""
+                              : c.g1.verdict == Verdict::undecided ? ", G1 undecided"
+                              : c.angle.lower >= 180               ? ", cusp"
+                                                                   : ", not G1";
   if (proven(c.c2)) return "C2" + tangent;
   if (proven(c.c1)) return "C1" + tangent;
   if (proven(c.g1)) return "G1";
@@ -31,7 +33,12 @@ std::string bound_text(const EnclosedMaximum& m) {
   if (m.lower == m.upper) return fmt::format("{}", m.lower);
   const auto outward = [](double x, bool up) {
     const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(x))) - 4);
-    return (up ? std::ceil(x / unit) : std::floor(x / unit)) * unit;
+    if (!(unit > 0)) return x;  // below the smallest normal number there are not five digits
+    double digits = up ? std::ceil(x / unit) : std::floor(x / unit);
+    // The quotient was rounded: what is printed must still be on the right side.
+    const auto printed = [&] { return std::strtod(fmt::format("{:.5g}", digits * unit).c_str(), nullptr); };
+    while (up ? printed() < x : printed() > x) digits += up ? 1 : -1;
+    return digits * unit;
   };
   return fmt::format("[{:.5g}, {:.5g}]", m.lower == 0 ? 0.0 : outward(m.lower, false),
                      std::isfinite(m.upper) ? outward(m.upper, true) : m.upper);
@@ -64,7 +71,8 @@ bool worse(const ReportedJoin& x, const ReportedJoin& y) {
 
 void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
   const bool asked = r.request.require || r.request.gap_tolerance || r.request.angle_tolerance;
-  std::vector<std::array<std::string, 7>> rows{{"join", "a", "b", "exact class", "largest gap", "largest angle/deg", "where"}};
+  std::vector<std::array<std::string, 7>> rows{
+      {"join", "a", "b", "exact class", "largest gap", "largest angle/deg", "where"}};
   std::vector<const ReportedJoin*> order;
   for (const ReportedJoin& j : r.joins) order.push_back(&j);
   std::sort(order.begin(), order.end(), [](const auto* x, const auto* y) { return worse(*x, *y); });
@@ -73,8 +81,8 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
     const bool part = j->kind == JoinKind::t_junction;
     std::string cls = class_text(c);
     if (c.ratio && *c.ratio != "1" && c.ratio->size() <= 12) cls += " ×" + *c.ratio;
-    rows.push_back({std::to_string(j->id), side_text(r, j->a, part), side_text(r, j->b, part) + (j->reversed ? " ↔" : ""), cls,
-                    bound_text(c.gap),
+    rows.push_back({std::to_string(j->id), side_text(r, j->a, part),
+                    side_text(r, j->b, part) + (j->reversed ? " ↔" : ""), cls, bound_text(c.gap),
                     bound_text(c.angle) + (c.angle.upper > 90 ? " (planes " + bound_text(c.plane_angle) + ")" : ""),
                     place_text(c)});
   }
@@ -96,8 +104,10 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
     line = mark + line;
     line.erase(line.find_last_not_of(' ') + 1);
     const bool fail = i > 0 && order[i - 1]->judgement.outcome == Outcome::fail;
-    out << (style.color && fail ? "\x1b[31m" : style.color && i == 0 ? "\x1b[1m" : "") << line
-        << (style.color && (fail || i == 0) ? "\x1b[0m" : "") << '\n';
+    out << (style.color && fail     ? "\x1b[31m"
+            : style.color && i == 0 ? "\x1b[1m"
+                                    : "")
+        << line << (style.color && (fail || i == 0) ? "\x1b[0m" : "") << '\n';
   }
 }
 
@@ -135,7 +145,8 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     out << fmt::format("angle    largest {} degrees\n", bound_text(angle));
   }
   if (!r.collapsed.empty()) {
-    const auto planes = std::count_if(r.collapsed.begin(), r.collapsed.end(), [](const auto& c) { return c.tangent_plane; });
+    const auto planes =
+        std::count_if(r.collapsed.begin(), r.collapsed.end(), [](const auto& c) { return c.tangent_plane; });
     out << fmt::format("poles    {} collapsed edges, {} with a proven tangent plane\n", r.collapsed.size(), planes);
   }
   if (!r.unmatched.empty()) {

@@ -1,0 +1,260 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""cli_test.py PROGRAM SOURCE_DIR: the program's commands, exit codes, outputs and messages."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+from fractions import Fraction
+
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
+PROGRAM, ROOT = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
+EXAMPLES, DATA = ROOT / "examples", ROOT / "tests/data"
+CUP, SPHERE, KINK = EXAMPLES / "cup.json", EXAMPLES / "sphere_octants.json", EXAMPLES / "seven/kink_at_end.json"
+
+
+def run(*words, **more):
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, timeout=120, **more)
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.dir = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def expect(self, code, *words, **more):
+        done = run(*words, **more)
+        self.assertEqual(done.returncode, code, f"{words}\n{done.stdout.decode()[-500:]}\n{done.stderr.decode()[-500:]}")
+        return done
+
+    def expect_refusal(self, *words, names=()):
+        """Exit 2, nothing on standard output, one line on standard error that names file and place."""
+        done = self.expect(2, *words)
+        self.assertEqual(done.stdout, b"")
+        message = done.stderr.decode(errors="replace")
+        self.assertTrue(message.startswith("patchproof: "), message)
+        self.assertEqual(message.count("\n"), 1, message)
+        self.assertNotIn("internal error", message)
+        for name in names:
+            self.assertIn(str(name), message)
+        return message
+
+    def write(self, name, text):
+        path = self.dir / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+
+class Certify(Command):
+    def test_exit_0_when_nothing_is_asked_or_all_is_proven(self):
+        self.assertIn(b"largest gap", self.expect(0, "certify", CUP).stdout)
+        self.expect(0, "certify", SPHERE, "--require", "G1", "--gap", "0", "--angle", "0")
+        self.expect(0, "certify", SPHERE, "--require", "C1")
+
+    def test_exit_1_when_something_is_refuted_or_exceeds(self):
+        self.expect(1, "certify", KINK, "--require", "G1")
+        self.expect(1, "certify", CUP, "--gap", "1e-9")
+        self.expect(1, "certify", CUP, "--angle", "1")
+
+    def test_exit_2_for_bad_usage(self):
+        for words in ([], ["certify"], ["polish", CUP], ["certify", CUP, "--require", "C7"], ["certify", CUP, "--gap", "-1"],
+                      ["certify", CUP, "--gap", "nan"], ["certify", CUP, "--angle", "nan"], ["certify", CUP, "--match", "nan"],
+                      ["certify", CUP, "--budget", "nan"], ["certify", CUP, "--budget", "-1"], ["certify", CUP, "--angle", "181"],
+                      ["certify", CUP, "--gap", "inf"], ["certify", CUP, "--gap", "1mm"], ["certify", CUP, "--jobs", "0"],
+                      ["certify", CUP, "--decimals", "float"], ["certify", CUP, "--unknown"], ["evaluate", CUP]):
+            done = self.expect(2, *words)
+            self.assertEqual(done.stdout, b"", words)
+            self.assertNotEqual(done.stderr, b"", words)
+
+    def test_exit_3_when_something_stays_undecided(self):
+        gap = json.loads(self.expect(0, "certify", CUP, "--json", "-").stdout)["summary"]["worst_gap"]
+        joins = json.loads(self.expect(0, "certify", CUP, "--json", "-").stdout)["joins"]
+        lower = max(j["gap"]["lower"] for j in joins)
+        self.assertLess(lower, gap)
+        between = (lower + gap) / 2
+        document = json.loads(self.expect(3, "certify", CUP, "--gap", repr(between), "--json", "-").stdout)
+        self.assertEqual(document["verdict"], "undecided")
+        self.assertEqual(document["summary"]["fail"], 0)
+        self.assertGreater(document["summary"]["undecided"], 0)
+
+    def test_json_to_standard_output_is_only_json(self):
+        done = self.expect(0, "certify", CUP, "--json", "-")
+        document = json.loads(done.stdout)
+        self.assertEqual(document["tool"], "patchproof")
+        self.assertEqual(document["input"]["joins"], len(document["joins"]))
+        self.assertEqual(done.stderr, b"")
+
+    def test_the_bytes_do_not_depend_on_the_jobs(self):
+        outputs = {self.expect(0, "certify", CUP, "--json", "-", "--jobs", n).stdout for n in (1, 2, 8)}
+        self.assertEqual(len(outputs), 1)
+        self.assertEqual(len({self.expect(0, "certify", CUP, "--jobs", n).stdout for n in (1, 2, 8)}), 1)
+
+    def test_json_file_beside_the_table(self):
+        out = self.dir / "report.json"
+        done = self.expect(1, "certify", KINK, "--require", "C1", "--json", out)
+        self.assertIn(b"verdict", done.stdout)
+        self.assertEqual(json.loads(out.read_text())["verdict"], "fail")
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["report.json"])
+
+    def test_several_models(self):
+        done = self.expect(1, "certify", SPHERE, KINK, "--require", "G1", "--json", "-")
+        documents = json.loads(done.stdout)
+        self.assertEqual([d["verdict"] for d in documents], ["pass", "fail"])
+        table = self.expect(0, "certify", SPHERE, KINK).stdout
+        self.assertIn(b"sphere_octants.json", table)
+        self.assertIn(b"kink_at_end.json", table)
+
+    def test_a_bad_model_among_good_ones_leaves_no_report(self):
+        out = self.dir / "report.json"
+        self.expect_refusal("certify", SPHERE, self.write("empty.json", ""), "--json", out, names=["empty.json"])
+        self.assertFalse(out.exists())
+
+    def test_budgets_end(self):
+        done = self.expect(0, "certify", CUP, "--budget", "0", "--json", "-")
+        full = json.loads(self.expect(0, "certify", CUP, "--json", "-").stdout)
+        for quick, slow in zip(json.loads(done.stdout)["joins"], full["joins"]):
+            for name in ("C0", "C1", "C2", "G1"):
+                if quick["exact"][name] != "undecided":
+                    self.assertEqual(quick["exact"][name], slow["exact"][name])
+            for bound in ("gap", "angle_degrees"):
+                self.assertLessEqual(slow[bound]["lower"], quick[bound]["upper"])
+                self.assertLessEqual(quick[bound]["lower"], slow[bound]["upper"])
+
+    def test_quiet(self):
+        quiet = self.expect(0, "certify", CUP, "--quiet").stdout
+        self.assertLess(quiet.count(b"\n"), 12)
+        self.assertIn(b"65 joins", quiet)
+
+
+class BadInput(Command):
+    def test_every_bad_file(self):
+        bad = sorted(p for p in DATA.rglob("bad_*") if p.is_file())
+        self.assertGreaterEqual(len(bad), 7)
+        for path in bad:
+            for command in ("certify", "info"):
+                with self.subTest(f"{command} {path.name}"):
+                    self.expect_refusal(command, path, names=[path.name])
+
+    def test_missing_directory_and_empty(self):
+        self.expect_refusal("certify", self.dir / "none.json", names=["none.json"])
+        self.expect_refusal("certify", self.dir, names=[self.dir.name])
+        self.expect_refusal("info", self.write("empty.bpt", ""), names=["empty.bpt"])
+
+    def test_every_truncation_of_a_model(self):
+        text = KINK.read_bytes()
+        for cut in range(1, len(text.rstrip()), 37):
+            self.expect_refusal("info", self.write("cut.json", text[:cut]), names=["cut.json"])
+
+    def test_hostile_bytes(self):
+        for i, text in enumerate((b"\0" * 100, b"\xff\xfe\x00[", b"[" * 100000, b"{" * 100000, b'{"a":' * 50000, b"1 " * 100000,
+                                  b"<" * 1000, b"<a>" * 20000, b"9" * 1000000, b"3\n1 2 3\n4 5 6\nnan 0 0\n")):
+            self.expect_refusal("certify", self.write(f"hostile{i}", text), names=[f"hostile{i}"])
+
+    def test_names_that_are_no_utf8(self):
+        path = os.path.join(os.fsencode(self.dir), b"caf\xe9.json")
+        with open(path, "wb") as out:
+            out.write(KINK.read_bytes())
+        for words in ([b"certify", path, b"--json", b"-"], [b"evaluate", path, b"--at", b"0,0", b"--json", b"-"]):
+            done = subprocess.run([os.fsencode(PROGRAM), *words], capture_output=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            json.loads(done.stdout)
+
+
+class Output(Command):
+    def test_unwritable_places(self):
+        self.expect_refusal("certify", KINK, "--json", self.dir / "none/report.json", names=["report.json"])
+        self.expect_refusal("convert", KINK, self.dir / "none/model.json", names=["model.json"])
+        (self.dir / "folder").mkdir()
+        self.expect_refusal("convert", KINK, self.dir / "folder", names=["folder"])
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["folder"])
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_a_full_disk(self):
+        for words in (["certify", CUP], ["certify", CUP, "--json", "-"], ["info", CUP], ["convert", CUP, "-"],
+                      ["evaluate", CUP, "--at", "0,0"]):
+            with open("/dev/full", "wb") as full:
+                done = subprocess.run([PROGRAM, *map(str, words)], stdout=full, stderr=subprocess.PIPE, timeout=60)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn(b"standard output", done.stderr)
+
+    def test_a_closed_standard_output(self):
+        done = subprocess.run([PROGRAM, "info", str(CUP)], stderr=subprocess.PIPE, timeout=60, preexec_fn=lambda: os.close(1))
+        self.assertEqual(done.returncode, 2)
+
+    def test_pipes_stay_pipes(self):
+        fifo = self.dir / "pipe"
+        os.mkfifo(fifo)
+        with subprocess.Popen([PROGRAM, "convert", str(KINK), str(fifo)], stderr=subprocess.PIPE) as process:
+            text = fifo.read_bytes()
+            self.assertEqual(process.wait(60), 0)
+        self.assertEqual(json.loads(text)["format"], "patchproof-model")
+        self.assertTrue(fifo.is_fifo())
+
+
+class Others(Command):
+    def test_help_and_version(self):
+        self.assertIn(b"certify", self.expect(0, "--help").stdout)
+        for command in ("certify", "evaluate", "info", "convert"):
+            self.assertIn(b"--", self.expect(0, command, "--help").stdout)
+        self.assertRegex(self.expect(0, "--version").stdout.decode(), r"^patchproof \d+\.\d+\.\d+\n$")
+
+    def test_evaluate_agrees_in_all_scalars(self):
+        for path, patch, at in ((CUP, 3, "1/3,0.7"), (SPHERE, 0, "1/7,3/5"), (EXAMPLES / "torus_q.json", 5, "0.25,1"), (KINK, 1, "0,1")):
+            values = {}
+            for scalar in ("rational", "interval", "double"):
+                done = self.expect(0, "evaluate", path, "--patch", patch, "--at", at, "--derivatives", 3, "--scalar", scalar, "--json", "-")
+                values[scalar] = json.loads(done.stdout)["values"]
+            self.assertEqual(len(values["rational"]), 10)
+            for exact, enclosure, rounded in zip(*(values[s] for s in ("rational", "interval", "double"))):
+                for x, i, d in zip(exact["value"], enclosure["value"], rounded["value"]):
+                    low, high = (Fraction(float(t)) for t in i.strip("[]").split(", "))
+                    scale = max(1, abs(high))
+                    self.assertLess(high - low, scale * Fraction(1, 10**9))
+                    self.assertLess(abs(Fraction(float(d)) - low), scale * Fraction(1, 10**9))
+                    if "sqrt" not in x:
+                        self.assertTrue(low <= Fraction(x) <= high, f"{x} not in {i}")
+
+    def test_evaluate_refuses(self):
+        for more in (["--at", "2,0"], ["--at", "0"], ["--at", "a,0"], ["--at", "0,1/0"], ["--at", "nan,0"], ["--at", "0,0,0"],
+                     ["--at", "0,0", "--patch", "99"], ["--at", "0,0", "--patch", "-1"]):
+            self.expect_refusal("evaluate", CUP, *more)
+
+    def test_convert_round_trip(self):
+        for path in [CUP, SPHERE, *sorted(p for p in DATA.rglob("good_*") if p.is_file())]:
+            with self.subTest(path.name):
+                once, twice = self.dir / "once.json", self.dir / "twice.json"
+                self.expect(0, "convert", path, once)
+                self.expect(0, "convert", once, twice)
+                self.assertEqual(once.read_bytes(), twice.read_bytes())
+                self.assertEqual(self.expect(0, "convert", once, "-").stdout, once.read_bytes())
+                a, b = (json.loads(self.expect(0, "certify", p, "--json", "-").stdout) for p in (path, once))
+                for part in ("joins", "summary", "unmatched_edges", "collapsed_edges"):
+                    self.assertEqual(a[part], b[part])
+
+    def test_convert_onto_itself(self):
+        copy = self.write("model.json", KINK.read_bytes())
+        self.expect(0, "convert", copy, copy)
+        self.expect(0, "certify", copy)
+
+    def test_info(self):
+        text = self.expect(0, "info", CUP).stdout.decode()
+        self.assertIn("35 patches", text)
+        self.assertIn("numbers in Q\n", text)
+        self.assertIn("Q(√d)", self.expect(0, "info", SPHERE).stdout.decode())
+
+    def test_binary64_decimals_are_other_numbers(self):
+        exact = json.loads(self.expect(0, "certify", CUP, "--json", "-").stdout)
+        rounded = json.loads(self.expect(0, "certify", CUP, "--json", "-", "--decimals", "binary64").stdout)
+        self.assertEqual((exact["input"]["decimals"], rounded["input"]["decimals"]), ("exact", "binary64"))
+        self.assertEqual(exact["input"]["sha256"], rounded["input"]["sha256"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
