@@ -39,7 +39,7 @@ class GismoReader {
     if (sink_.patch_count() == 0)
       return source_.error(ErrorCode::unsupported, source_.bytes, "the file holds no <Geometry> that is a surface");
     if (curves_ > 0) sink_.notes.push_back(fmt::format("{} curve{} skipped", curves_, curves_ == 1 ? "" : "s"));
-    if (interfaces_) sink_.notes.push_back("declared interfaces are not used: joins are found from the geometry");
+    if (interfaces_) sink_.notes.emplace_back("declared interfaces are not used: joins are found from the geometry");
     return std::nullopt;
   }
 

@@ -6,8 +6,8 @@
 //   g1_decision/fixed     the same question in integers of fixed width, from doubles to the answer: join/fixed_g1.h
 //   g1_decision/rational  the same templates on mpq: what clearing the denominators saves
 //   certify_join          everything: classes, witnesses, bounds
-// and the same for rational joins (homogeneous reflection, weights of 10 bits). Models: one whole certify run per
-// iteration, reading included.
+// and the same for rational joins (homogeneous reflection, weights of 10 bits). Models (the cup, and those named: ./dev bench MODEL…): one whole
+// certify run per iteration, reading included.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -138,12 +138,16 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(("g1_decision/rational" + kind).c_str(), g1_decision<Rational>, rational);
     benchmark::RegisterBenchmark(("certify_join" + kind).c_str(), certify_one, rational);
   }
-  benchmark::RegisterBenchmark("certify_model/cup", certify_file, source + "/examples/cup.json")
-      ->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("certify_model/newell_teapot", certify_file, source + "/../shared/data/newell/teapot")
-      ->Unit(benchmark::kMillisecond);
+  std::vector<std::string> models{source + "/examples/cup.json"};
   benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  for (int i = 1; i < argc; ++i) {
+    if (argv[i][0] == '-') return benchmark::ReportUnrecognizedArguments(argc, argv), 2;
+    models.push_back(argv[i]);
+  }
+  for (const std::string& model : models)
+    benchmark::RegisterBenchmark(("certify_model/" + std::filesystem::path(model).filename().string()).c_str(),
+                                 certify_file, model)
+        ->Unit(benchmark::kMillisecond);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
