@@ -89,7 +89,8 @@ FixedG1 decide_polynomial(const IntegerRows<L, 3>& rows) {
     for (int j = 0; j < 4; ++j) add_cross(a_cross_b[i + j], a[i], b[j]);
   if (!all_products_are<3 * L>(Sign::zero, a_cross_b, c)) return FixedG1::refuted;
 
-  // (c × a) · r = a · (r × c). The sums are values at 1/2, by the binomial sums 4 and 8 below 2^(b+4): c × a fits 2L limbs.
+  // (c × a) · r = a · (r × c). The sums are values at 1/2, by the binomial sums 4 and 8 up to 2^(b+3) and 2^(b+4):
+  // c × a fits 2L limbs.
   Vector3<2 * L> middle{};
   add_cross(middle, sum_of(c), sum_of(a));
   const Vector3<1> r = short_direction(middle);
@@ -155,7 +156,8 @@ FixedG1 decide_rational(const IntegerRows<L, 4>& rows) {
     for (int k = 0; k < 3; ++k) std::swap(rung[k], rung[3 + k]);
   if (!all_products_are<4 * L>(Sign::zero, line, rungs)) return FixedG1::refuted;
 
-  // (D × A + A_w M) · r = A · (r × D) + A_w (M · r). At 1/2, by the sums 10 and 8: 3 · 2^(3b+1) · 80 < 2^(3b+9), 3L limbs.
+  // (D × A + A_w M) · r = A · (r × D) + A_w (M · r). At 1/2, by the sums 10 and 8: 3 · 2^(3b+1) · 80 < 2^(3b+9),
+  // which fits 3L limbs.
   Vector3<3 * L> middle{};
   add_normal<L>(middle, sum_of(line), sum_of(a));
   const Vector3<1> r = short_direction(middle);

@@ -237,28 +237,53 @@ TEST(FixedG1, Law2_CartesianPointsWithFullWeights) {
 TEST(FixedG1, Law3_LargestNumbersOfEachWidth) {
   WildNumbers random;
   for (const bool weighted : {false, true})
-    for (const int bits : {53, 59, 60, 123}) {
+    for (const int bits : {53, 59, 60, 62, 63, 64, 123}) {
       Tally tally;
       const double large = std::ldexp(0x1p53 - 1, bits - 53);
+      const auto either = [&] { return random.below(2) ? large : -large; };
       for (int i = 0; i < 150; ++i) {
+        const bool coplanar = i % 3 == 0;  // a reflection: B = 2 E − A, with E half as large
+        const auto draw = [&](double& e, double& a, double& b, bool positive) {
+          const double size = positive ? large : either();
+          e = coplanar ? size / 2 : size;
+          a = coplanar ? e + either() / 2 : either();
+          b = coplanar ? 2 * e - a : either();
+        };
         BicubicJoinRows rows;
         rows.points = WeightedPoints::homogeneous;
-        for_each_number(rows, [&](double& x) { x = random.below(2) ? large : -large; });
-        if (weighted) {
-          rows.weights.emplace();
-          for (auto& row : *rows.weights)
-            for (double& w : row) w = large;
-          for (int j = 0; j < 4; ++j) (*rows.weights)[1 + random.below(2)][j] *= random.below(2) ? 1 : -1;
-          (*rows.weights)[0][3] = 1;
+        if (weighted) rows.weights.emplace();
+        for (int j = 0; j < 4; ++j) {
+          for (int k = 0; k < 3; ++k) draw(rows.edge[j][k], rows.behind_a[j][k], rows.behind_b[j][k], false);
+          if (weighted) draw((*rows.weights)[0][j], (*rows.weights)[1][j], (*rows.weights)[2][j], true);
         }
-        if (i % 3 == 0) rows.behind_b = rows.behind_a;  // det ≡ 0 with full-size terms
-        if (i % 3 == 0 && weighted) (*rows.weights)[2] = (*rows.weights)[1];
-        rows.edge[i % 4][i % 3] = 1;
+        if (weighted)
+          for (auto& row : *rows.weights) row[3] = 1;
+        for (Row* row : {&rows.edge, &rows.behind_a, &rows.behind_b}) (*row)[i % 4][1] = 1;
         ASSERT_NO_FATAL_FAILURE(check(rows, tally));
       }
       EXPECT_EQ(tally.empty, 0);
-      EXPECT_GT(tally.refuted, 50) << bits;
-      EXPECT_GE(tally.open, 50) << bits;
+      EXPECT_GT(tally.refuted, 90) << bits;
+      EXPECT_GE(tally.open + tally.proven, 50) << bits;
+    }
+}
+
+// All points in a plane but one, and so arranged that a single coefficient of det is not zero: its first or its last.
+TEST(FixedG1, Law1_EveryEndOfTheEdgeCounts) {
+  for (const int end : {0, 3})
+    for (const bool weighted : {false, true}) {
+      BicubicJoinRows rows;
+      for (int i = 0; i < 4; ++i) rows.behind_a[i] = {-1, 0, 0};
+      rows.edge[end] = {0, 1, 0};
+      rows.behind_b = rows.edge;
+      rows.behind_b[end][0] = 1;
+      rows.behind_a[end][2] = 1;
+      if (weighted) rows.weights = {{{1, 1, 1, 1}, {1, 1, 1, 1}, {2, 2, 2, 2}}};
+      Tally tally;
+      ASSERT_NO_FATAL_FAILURE(check(rows, tally));
+      EXPECT_EQ(tally.refuted, 1) << end << weighted;
+      rows.behind_a[end][2] = 0;
+      ASSERT_NO_FATAL_FAILURE(check(rows, tally));
+      EXPECT_EQ(tally.refuted, 1) << end << weighted;
     }
 }
 

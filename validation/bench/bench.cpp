@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How fast joins are decided. `./dev bench` runs everything; ratios are only meaningful within one run.
 //
-// Random bicubic joins, a lattice moved by noise, with dyadic coordinates of 26 bits, exactly G1 by construction (ratio 3/2):
+// Random bicubic joins, a lattice moved by noise, dyadic coordinates of 26 bits, exactly G1 by construction (ratio 3/2):
 //   g1_decision/integer   determinant, regularity and side on cleared integers: the rung that certify uses
 //   g1_decision/fixed     the same question in integers of fixed width, from doubles to the answer: join/fixed_g1.h
 //   g1_decision/rational  the same templates on mpq: what clearing the denominators saves

@@ -2,7 +2,7 @@
 // The rungs of the ladder. Each is a function of its own that tests call and reports name.
 //
 //   interval   forms in interval arithmetic: may refute equality and bound deviations; never proves equality
-//   fixed      bicubic joins of doubles, in integers of fixed width: decides the determinant of G1, mostly also the side
+//   fixed      bicubic joins of doubles, integers of fixed width: decides the determinant of G1, mostly the side too
 //   exact      forms over Integer ("integer") or Q(√d) ("quadratic"): decides every class
 //
 // ENSURES  (1) what the interval or the fixed rung answers, the exact rung answers too;  (2) the interval and the exact
@@ -26,8 +26,8 @@ bool fits_interval_rung(const std::vector<JoinForms<Interval>>& forms);
 // Some piece's points differ certainly.
 bool interval_rung_refutes_c0(const std::vector<JoinForms<Interval>>& forms);
 
-// refuted when a piece is, proven_smooth when all pieces are, cannot_tell when a piece leaves it open; empty when no piece
-// is refuted and one is not representable. REQUIRES the join is C0. Needs no RoundingGuard.
+// refuted when a piece is, proven_smooth when all pieces are, cannot_tell when a piece leaves it open; empty when no
+// piece is refuted and one is not representable. REQUIRES the join is C0. Needs no RoundingGuard.
 std::optional<FixedG1> fixed_rung_decides_g1(const std::vector<JoinPiece<Rational>>& pieces);
 
 template <Ring R>

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // FixedInteger<Limbs>: whole numbers of 64·Limbs bits on the stack, for exact decisions whose size is known beforehand.
 //
-//     value = Σ limb_i 2^(64 i) − [top bit] 2^(64 Limbs)          two's complement, −2^(64 Limbs − 1) ≤ value < 2^(64 Limbs − 1)
+//     value = Σ limb_i 2^(64 i) − [top bit] 2^(64 Limbs)        two's complement
 //
-// No allocation, no branches: for numbers of a few words several times faster than Integer. The price is a proof: whoever
-// uses it states a bound on every intermediate result and chooses Limbs by it (join/fixed_g1.h does).
+// No allocation: for numbers of a few words many times faster than Integer. The price is a proof: whoever uses it
+// states a bound on every intermediate result and chooses Limbs by it (join/fixed_g1.h does).
 //
 // REQUIRES  the exact result of + − × fits; otherwise it is reduced modulo 2^(64 Limbs), as unsigned numbers are.
-// ENSURES   (1) + − × and unary − are exact modulo 2^(64 Limbs), hence exact when the result fits;  (2) multiply_wide never
-//           overflows: N + M limbs hold every product of N and M limbs;  (3) add_product(s, a, b) is s + a b and
-//           subtract_product(s, a, b) is s − a b, modulo the width of s;  (4) widening keeps the value;  (5) x << k is x 2^k
-//           modulo 2^(64 Limbs), shifted_down(k) the largest whole number not above x / 2^k;  (6) sign() is the sign.
+// ENSURES   (1) + − × and unary − are exact modulo 2^(64 Limbs), hence exact when the result fits;  (2) multiply_wide
+//           never overflows: N + M limbs hold every product of N and M limbs;  (3) add_product(s, a, b) is s + a b and
+//           subtract_product(s, a, b) is s − a b, modulo the width of s;  (4) widening keeps the value;  (5) x << k is
+//           x 2^k modulo 2^(64 Limbs), shifted_down(k) the largest whole number not above x / 2^k;  (6) sign() is the
+//           sign.
 // SCALARS   a Ring, but no ExactRing: a template that relies on exactness without a bound must not receive it.
 // COST      Limbs word additions; N · M word products.
 #pragma once
