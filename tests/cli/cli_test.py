@@ -4,6 +4,8 @@
 import json
 import os
 import pathlib
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -175,14 +177,26 @@ class Output(Command):
         self.expect_refusal("convert", KINK, self.dir / "folder", names=["folder"])
         self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["folder"])
 
-    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_a_full_disk(self):
+        def no_room():  # every write to a file fails
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+        def run_without_room(words, stdout):
+            return subprocess.run([PROGRAM, *map(str, words)], stdout=stdout, stderr=subprocess.PIPE, timeout=60,
+                                  preexec_fn=no_room, restore_signals=False)
+
         for words in (["certify", CUP], ["certify", CUP, "--json", "-"], ["info", CUP], ["convert", CUP, "-"],
                       ["evaluate", CUP, "--at", "0,0"]):
-            with open("/dev/full", "wb") as full:
-                done = subprocess.run([PROGRAM, *map(str, words)], stdout=full, stderr=subprocess.PIPE, timeout=60)
+            with tempfile.TemporaryFile() as full:
+                done = run_without_room(words, full)
             self.assertEqual(done.returncode, 2, words)
             self.assertIn(b"standard output", done.stderr)
+        for words in (["convert", CUP, self.dir / "out.json"], ["certify", CUP, "--json", self.dir / "out.json"]):
+            done = run_without_room(words, subprocess.DEVNULL)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn(b"out.json", done.stderr)
+            self.assertEqual(list(self.dir.iterdir()), [], "a partial file was left")
 
     def test_a_closed_standard_output(self):
         done = subprocess.run([PROGRAM, "info", str(CUP)], stderr=subprocess.PIPE, timeout=60, preexec_fn=lambda: os.close(1))
