@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -87,6 +88,9 @@ int run(const Options& options) {
     Result<ModelFile> file = read_model(path, options.decimals);
     if (!file) return report_error(file.error());
     files.push_back(std::move(*file));
+    std::error_code ignored;
+    if (options.json != "-" && std::filesystem::equivalent(path, options.json, ignored))
+      return report_error({ErrorCode::usage, "--json", "would overwrite the model", options.json});
   }
   Outcome outcome = Outcome::pass;
   std::ostringstream json, table;

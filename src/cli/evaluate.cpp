@@ -74,8 +74,14 @@ Result<Evaluation> evaluate_model(const Model<T>& model, const Options& o) {
 int run(const Options& o) {
   const Result<ModelFile> file = read_model(o.model, o.decimals);
   if (!file) return report_error(file.error());
-  const Result<Evaluation> result =
-      std::visit([&](const auto& model) { return evaluate_model(model, o); }, file->model);
+  const auto evaluate = [&](const auto& model) -> Result<Evaluation> {
+    try {
+      return evaluate_model(model, o);
+    } catch (const contract_error& e) {  // another root than the model's, or doubles that overflow
+      return Error{ErrorCode::usage, "evaluate", e.what(), o.at};
+    }
+  };
+  const Result<Evaluation> result = std::visit(evaluate, file->model);
   if (!result) return report_error(result.error());
   std::string text;
   if (!o.json.empty()) {

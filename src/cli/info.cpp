@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.h"
@@ -46,6 +47,9 @@ int run_info(const std::string& path, Decimals decimals) {
 int run_convert(const std::string& from, const std::string& to, Decimals decimals) {
   const Result<ModelFile> file = read_model(from, decimals);
   if (!file) return report_error(file.error());
+  std::error_code ignored;
+  if (to != "-" && std::filesystem::equivalent(from, to, ignored))
+    return report_error({ErrorCode::usage, "convert", "would overwrite its input", to});
   return write_output(to, std::visit([](const auto& model) { return write_model_json(model); }, file->model));
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -33,7 +35,10 @@ int write_output(const std::string& path, const std::string& text) {
   const auto kind = std::filesystem::status(path, ignored).type();
   const bool special = kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found &&
                        kind != std::filesystem::file_type::directory;
-  const std::string target = special ? path : path + ".partial";
+  // A link is followed; the temporary file has a name that nobody else uses.
+  const std::filesystem::path followed = std::filesystem::weakly_canonical(path, ignored);
+  const std::string whole = ignored || followed.empty() ? path : followed.string();
+  const std::string target = special ? path : whole + ".partial-" + std::to_string(getpid());
   const auto failed = [&] {
     const Error error{ErrorCode::cannot_open, path, "cannot be written", std::strerror(errno)};
     if (!special) std::remove(target.c_str());
@@ -43,7 +48,7 @@ int write_output(const std::string& path, const std::string& text) {
   if (!file) return failed();
   const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (std::fclose(file) != 0 || !written) return failed();
-  if (!special && std::rename(target.c_str(), path.c_str()) != 0) return failed();
+  if (!special && std::rename(target.c_str(), whole.c_str()) != 0) return failed();
   return 0;
 }
 

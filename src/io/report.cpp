@@ -88,7 +88,9 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
 }  // namespace
 
 Outcome Report::outcome() const {
-  Outcome worst = Outcome::pass;
+  // Something was asked and nothing could be looked at: that is no pass.
+  const bool asked = request.require || request.gap_tolerance || request.angle_tolerance;
+  Outcome worst = asked && joins.empty() ? Outcome::undecided : Outcome::pass;
   for (const ReportedJoin& join : joins) {
     if (join.judgement.outcome == Outcome::fail) return Outcome::fail;
     if (join.judgement.outcome == Outcome::undecided) worst = Outcome::undecided;

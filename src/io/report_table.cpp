@@ -28,6 +28,18 @@ std::string class_text(const Certificate& c) {
   return c.angle.lower >= 180 ? "C0, cusp" : c.g1.verdict == Verdict::undecided ? "C0, G1 undecided" : "C0";
 }
 
+// Names from files may hold anything: control characters would forge lines or colours.
+std::string printable(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    else
+      out += c;
+  }
+  return out;
+}
+
 // Five digits, rounded outward; the JSON has all of them.
 std::string bound_text(const EnclosedMaximum& m) {
   if (m.lower == m.upper) return fmt::format("{}", m.lower);
@@ -46,7 +58,7 @@ std::string bound_text(const EnclosedMaximum& m) {
 
 // "wall.u_max", with the range where only a part of the edge joins: "wall.u_max[0, 0.5]".
 std::string side_text(const Report& r, const ReportedSide& s, bool part) {
-  const std::string& name = r.patch_names[s.patch];
+  const std::string name = printable(r.patch_names[s.patch]);
   const std::string edge = (name.empty() ? std::to_string(s.patch) : name) + "." + s.edge;
   return part ? fmt::format("{}[{:.6g}, {:.6g}]", edge, std::min(s.begin, s.end), std::max(s.begin, s.end)) : edge;
 }
@@ -116,7 +128,7 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
 void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
   out << fmt::format("{}: {}, {} patches, decimals {}, sha256 {}…\n", r.file, r.format, r.patch_names.size(),
                      r.decimals == Decimals::exact ? "exact" : "binary64", r.sha256.substr(0, 16));
-  for (const std::string& note : r.notes) out << "note: " << note << '\n';
+  for (const std::string& note : r.notes) out << "note: " << printable(note) << '\n';
   if (!style.quiet && !r.joins.empty()) {
     out << '\n';
     write_rows(out, r, style);
@@ -140,10 +152,16 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
   };
   out << fmt::format("{} joins{}{}\n", r.joins.size(), r.joins.empty() ? "" : ": ", listed(kinds));
   if (!r.joins.empty()) {
-    out << fmt::format("proven   {}\n", listed(classes));
-    out << fmt::format("gap      largest {}{}\n", bound_text(gap), r.units.empty() ? "" : " " + r.units);
+    out << fmt::format("classes  {}\n", listed(classes));
+    out << fmt::format("gap      largest {}{}\n", bound_text(gap), r.units.empty() ? "" : " " + printable(r.units));
     out << fmt::format("angle    largest {} degrees\n", bound_text(angle));
   }
+  const auto degenerate = std::count_if(r.joins.begin(), r.joins.end(), [](const ReportedJoin& j) {
+    return std::any_of(j.certificate.degenerate.begin(), j.certificate.degenerate.end(),
+                       [](const Degeneracy& d) { return d.begin != d.end || d.what.find("no normal") == 0; });
+  });
+  if (degenerate > 0)
+    out << fmt::format("normals  vanish inside or along {} joins; their limits are used (see --json)\n", degenerate);
   if (!r.collapsed.empty()) {
     const auto planes =
         std::count_if(r.collapsed.begin(), r.collapsed.end(), [](const auto& c) { return c.tangent_plane; });
@@ -162,7 +180,11 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
       pass += j.judgement.outcome == Outcome::pass;
       fail += j.judgement.outcome == Outcome::fail;
     }
-    out << fmt::format("verdict  {}: {} pass, {} fail, {} undecided\n", to_string(r.outcome()), pass, fail, undecided);
+    out << fmt::format("verdict  {}: {} pass, {} fail, {} undecided", to_string(r.outcome()), pass, fail, undecided);
+    if (r.joins.empty())
+      out << "; no edges meet within " << fmt::format("{:.3g}", r.match_length) << ", nothing was judged";
+    if (!r.joins.empty() && !r.unmatched.empty()) out << "; free edges are not judged";
+    out << '\n';
   }
 }
 

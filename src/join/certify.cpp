@@ -24,7 +24,10 @@ class JoinCertifier {
 
  public:
   JoinCertifier(const BsplinePatch<T, 4>& a, const BsplinePatch<T, 4>& b, const Join<T>& join, const Request& request)
-      : pieces_(join_pieces(a, b, join)), witnesses_(join, pieces_) {
+      : pieces_(join_pieces(a, b, join)),
+        witnesses_(join, pieces_),
+        request_(request),
+        numerical_pairing_(join.pairing.kind == PairingKind::piecewise_linear) {
     budget_.deadline =
         std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                                std::chrono::duration<double>(std::min(request.seconds_per_join, 1e6)));
@@ -39,7 +42,7 @@ class JoinCertifier {
       quick.nodes = kQuickNodes;
       set_gap(bound_gap(interval_, quick));
       if (!certificate_.gap.converged) set_gap(bound_gap(exact(), budget_));
-      refute_without_c0();
+      decide_without_c0();
     } else if (std::all_of(exact().begin(), exact().end(), [](const JoinForms<R>& f) { return is_c0(f); })) {
       certificate_.c0.verdict = Verdict::proven;
       certificate_.gap.at = witnesses_.place(0, T(0));
@@ -47,7 +50,7 @@ class JoinCertifier {
       if (certificate_.g1.verdict == Verdict::proven || orientation_known_) return std::move(certificate_);
     } else {
       set_gap(bound_gap(exact(), budget_));
-      refute_without_c0();
+      decide_without_c0();
     }
     bound_angle();
     return std::move(certificate_);
@@ -67,12 +70,34 @@ class JoinCertifier {
     maximum.at = witnesses_.place(bound.piece, embed<T>(from_double(bound.t)));
     return maximum;
   }
-  void set_gap(const DeviationBound& bound) {
+  // A tolerance between the bounds: halve on until it is decided, as far as the budget goes.
+  template <class Rebound>
+  DeviationBound until_decided(DeviationBound bound, const std::optional<double>& tolerance, Rebound rebound) {
+    Budget finer = budget_;
+    for (const double width : {0x1p-20, 0x1p-36, 0x1p-48}) {
+      if (!tolerance || *tolerance < bound.lower || bound.upper <= *tolerance) break;
+      finer.relative_width = width;
+      bound = rebound(finer);
+    }
+    return bound;
+  }
+
+  void set_gap(DeviationBound bound) {
+    if (bound.converged)
+      bound = until_decided(bound, request_.gap_tolerance, [&](const Budget& b) { return bound_gap(exact(), b); });
     certificate_.gap = located(bound);
     gap_witness_ = {bound.piece, embed<T>(from_double(bound.t))};
   }
 
-  void refute_without_c0() {
+  // The paired points differ. Under a pairing that was found numerically this says nothing about the curves.
+  void decide_without_c0() {
+    if (numerical_pairing_) {
+      for (ExactClass* c : {&certificate_.c0, &certificate_.c1, &certificate_.c2, &certificate_.g1})
+        *c = {Verdict::undecided, "the edges run differently; their pairing was found numerically", std::nullopt};
+      certificate_.gap.lower = 0;
+      certificate_.gap.converged = false;
+      return;
+    }
     certificate_.c0 = {Verdict::refuted, "the edge curves differ",
                        witnesses_.find(Quantity::point_difference, gap_witness_)};
     for (ExactClass* c : {&certificate_.c1, &certificate_.c2, &certificate_.g1})
@@ -208,7 +233,9 @@ class JoinCertifier {
     DeviationBound bound;
     bound.converged = false;
     if (fits_) bound = interval_rung_bound_angle(interval_, Deviation::angle, quick);
-    if (bound.converged && bound.upper < 90) {
+    const std::optional<double>& tolerance = request_.angle_tolerance;
+    const bool decided = !tolerance || *tolerance < bound.lower || bound.upper <= *tolerance;
+    if (bound.converged && bound.upper < 90 && decided) {
       certificate_.orientation = Orientation::smooth;
       certificate_.angle = certificate_.plane_angle = located(bound);
       return;
@@ -218,22 +245,30 @@ class JoinCertifier {
       certificate_.plane_angle = {0, 90, witnesses_.place(0, T(0)), false};
       return;
     }
-    if (!bound.converged || bound.upper >= 180) bound = exact_rung_bound_angle(normals_, Deviation::angle, budget_);
+    const auto exactly = [&](const Budget& b) { return exact_rung_bound_angle(normals_, Deviation::angle, b); };
+    if (!bound.converged || bound.upper >= 180) bound = exactly(budget_);
+    if (bound.converged) bound = until_decided(bound, tolerance, exactly);
     certificate_.orientation = bound.upper < 90 ? Orientation::smooth : orientation_of_normals();
     certificate_.angle = certificate_.plane_angle = located(bound);
     if (!(bound.upper <= 90))
       certificate_.plane_angle = located(exact_rung_bound_angle(normals_, Deviation::plane_angle, budget_));
   }
 
-  // By the sign of n_A · n_B over the whole join: mixed when it is not certainly one sign.
+  // By the sign of n_A · n_B over the whole join: unknown when it is not certainly one sign and does not certainly change.
   Orientation orientation_of_normals() const {
     std::optional<Sign> sign;
     for (const auto& [a, b] : normals_) {
       const BinaryForm<R> side = dot(a.n, b.n);
       const auto factor = odd_part(over_field(a.factor * b.factor));
-      if (vanishes(side) || !isolate_roots(factor, T(1)).empty() ||
-          !detail::certainly_zero_free(detail::enclose_vector(FormVector<R>{side, {}, {}})))
-        return Orientation::mixed;
+      const bool one_sign =
+          !vanishes(side) && detail::certainly_zero_free(detail::enclose_vector(FormVector<R>{side, {}, {}}));
+      if (!one_sign) {
+        const auto ends = over_field(side);
+        const bool changes = factor.degree() == 0 && !ends.is_empty() &&
+                             *scalar_traits<T>::sign(T(ends(T(0)) * ends(T(1)))) == Sign::negative;
+        return changes ? Orientation::mixed : Orientation::unknown;
+      }
+      if (!isolate_roots(factor, T(1)).empty()) return Orientation::mixed;
       const bool turned = *scalar_traits<T>::sign(factor[0]) == Sign::negative;
       const Sign here = *scalar_traits<R>::sign(turned ? R(-side[0]) : side[0]);
       if (sign && *sign != here) return Orientation::mixed;
@@ -247,6 +282,8 @@ class JoinCertifier {
 
   std::vector<JoinPiece<T>> pieces_;
   WitnessFinder<T> witnesses_;
+  const Request& request_;
+  const bool numerical_pairing_;
   Budget budget_;
   std::vector<JoinForms<Interval>> interval_;
   bool fits_ = false;
@@ -273,6 +310,8 @@ std::vector<Certificate> certify_joins(const std::vector<const BsplinePatch<T, 4
                                        const std::function<void(std::size_t)>& progress) {
   std::vector<Certificate> certificates(joins.size());
   std::atomic<std::size_t> done{0};
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    jobs > 0 ? jobs : std::max(1, tbb::this_task_arena::max_concurrency()));
   tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, joins.size(), [&](std::size_t i) {

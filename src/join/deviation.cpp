@@ -181,8 +181,7 @@ double degrees(double q, bool upward) {
 }  // namespace
 
 DeviationBound bound_deviation(const std::vector<DeviationPiece>& pieces, Deviation what, const Budget& budget) {
-  constexpr double kRelativeWidth = 1.0 / 256;  // of the key; leaves room for the conversion of keys to degrees
-  constexpr int kMaxDepth = 45;                 // dyadic parameters stay exact, and intervals cannot shrink further
+  constexpr int kMaxDepth = 45;  // dyadic parameters stay exact, and intervals cannot shrink further
   double lower = 0, pruned = 0;
   DeviationBound bound;
   std::priority_queue<Node> queue;
@@ -204,7 +203,9 @@ DeviationBound bound_deviation(const std::vector<DeviationPiece>& pieces, Deviat
   }
   for (std::size_t i = 0; i < pieces.size(); ++i) push(pieces[i].coefficients, static_cast<int>(i), 0, 0, 1);
   int nodes = 0;
-  const auto too_wide = [&](double upper) { return upper == kInfinity || upper - lower > kRelativeWidth * upper; };
+  const auto too_wide = [&](double upper) {
+    return upper == kInfinity || upper - lower > budget.relative_width * upper;
+  };
   while (!queue.empty() && too_wide(queue.top().upper)) {
     if (++nodes > budget.nodes) break;
     if (nodes % 64 == 0 && std::chrono::steady_clock::now() > budget.deadline) break;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "patchproof/patch/boundary.h"
@@ -18,12 +19,55 @@ inline double distance(const Point3& a, const Point3& b) {
   return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-// Some double next to x, fast.
-inline double approximate(double x) { return x; }
-template <ExactField T>
-double approximate(const T& x) {
-  return enclose(x).inf();
+// A double next to mantissa · 2^exponent = x, for numbers of any size.
+struct Approximate {
+  double mantissa = 0;
+  long exponent = 0;
+  double scaled(long by) const {
+    const long e = exponent + by;
+    return e > 2000 ? std::ldexp(mantissa, 2000) : e < -3000 ? 0.0 : std::ldexp(mantissa, static_cast<int>(e));
+  }
+};
+inline Approximate approximate(const Rational& x) {
+  long n = 0, d = 0;
+  const double numerator = mpz_get_d_2exp(&n, mpq_numref(x.backend().data()));
+  const double denominator = mpz_get_d_2exp(&d, mpq_denref(x.backend().data()));
+  return numerator == 0 ? Approximate{} : Approximate{numerator / denominator, n - d};
 }
+inline Approximate approximate(const Quadratic& x) {
+  const ScaledInterval s = enclose_scaled(x);
+  return {s.mantissa.inf(), s.exponent};
+}
+
+// Where doubles are used: x_frame = (x − origin) · 2^−exponent, exact before rounding, so that the model's place and size do
+// not matter. In it the model has a size near one.
+template <ExactField T>
+struct Frame {
+  Vec<T, 3> origin;
+  long exponent = 0;
+
+  // The homogeneous point in the frame, all components times 2^weight_exponent.
+  Vec<double, 4> operator()(const Vec<T, 4>& h, long weight_exponent) const {
+    Vec<double, 4> out;
+    for (int c = 0; c < 3; ++c) out[c] = approximate(T(h[c] - origin[c] * h[3])).scaled(weight_exponent - exponent);
+    out[3] = approximate(h[3]).scaled(weight_exponent);
+    return out;
+  }
+};
+
+// The exponent of the largest weight.
+template <ExactField T>
+long weight_exponent(const std::vector<Vec<T, 4>>& points) {
+  long largest = std::numeric_limits<long>::min();
+  for (const Vec<T, 4>& p : points) {
+    const Approximate w = approximate(p[3]);
+    if (w.mantissa != 0) largest = std::max(largest, w.exponent);
+  }
+  return largest == std::numeric_limits<long>::min() ? 0 : largest;
+}
+
+// Control points with a smaller share of the largest weight tell little about where the surface is.
+inline constexpr double kNotableWeight = 0x1p-10;
 
 // The boundary curve of one edge, parametrised by [0, 1] whatever the knots.
 class EdgeCurve {
@@ -74,14 +118,16 @@ class EdgeCurve {
 };
 
 template <ExactField T>
-EdgeCurve edge_curve(const BsplinePatch<T, 4>& patch, EdgeName edge) {
+EdgeCurve edge_curve(const BsplinePatch<T, 4>& patch, EdgeName edge, const Frame<T>& frame) {
   const IsoLine<T> line = edge_line(patch, edge);
   const BsplineCurve<T, 4> row = std::move(cross_boundary_rows(patch, line, 0)[0]);
+  // Knots relative to the domain: where it lies and how long it is does not matter either.
+  const T begin = row.knots().domain_begin(), length = row.knots().domain_end() - begin;
   std::vector<double> knots;
-  for (const T& k : row.knots().knots()) knots.push_back(nearest_double(k));
+  for (const T& k : row.knots().knots()) knots.push_back(nearest_double(T((k - begin) / length)));
+  const long exponent = weight_exponent(row.points());
   std::vector<Vec<double, 4>> points;
-  for (const Vec<T, 4>& p : row.points())
-    points.push_back({{approximate(p[0]), approximate(p[1]), approximate(p[2]), approximate(p[3])}});
+  for (const Vec<T, 4>& p : row.points()) points.push_back(frame(p, -exponent));
   return EdgeCurve(KnotVector<double>::make_unchecked(row.degree(), std::move(knots)), std::move(points));
 }
 

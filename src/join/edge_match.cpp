@@ -12,6 +12,7 @@
 #include <map>
 #include <tuple>
 
+#include "join/collapsed_edge.h"
 #include "join/pairing.h"
 
 namespace patchproof {
@@ -31,6 +32,7 @@ struct Edge {
   EdgeName name;
   std::array<Point3, kSamples> samples;
   Box box;
+  double length = 0;  // of the polygon of the samples
 
   const Point3& begin() const { return samples.front(); }
   const Point3& end() const { return samples.back(); }
@@ -40,9 +42,8 @@ template <ExactField T>
 class EdgeMatcher {
  public:
   EdgeMatcher(const std::vector<const BsplinePatch<T, 4>*>& patches, double length) : patches_(patches) {
-    measure();
-    match_.length = length > 0 ? length : 1e-6 * match_.diagonal;
-    collect_edges();
+    choose_frame();
+    collect_edges(length);
   }
 
   EdgeMatch<T> run() {
@@ -66,114 +67,119 @@ class EdgeMatcher {
 
  private:
   Box grown(const Box& box) const {
-    Box out;
-    const double m = match_.length;
-    bg::set<bg::min_corner, 0>(out, bg::get<bg::min_corner, 0>(box) - m);
-    bg::set<bg::min_corner, 1>(out, bg::get<bg::min_corner, 1>(box) - m);
-    bg::set<bg::min_corner, 2>(out, bg::get<bg::min_corner, 2>(box) - m);
-    bg::set<bg::max_corner, 0>(out, bg::get<bg::max_corner, 0>(box) + m);
-    bg::set<bg::max_corner, 1>(out, bg::get<bg::max_corner, 1>(box) + m);
-    bg::set<bg::max_corner, 2>(out, bg::get<bg::max_corner, 2>(box) + m);
-    return out;
+    const BoxPoint &low = box.min_corner(), &high = box.max_corner();
+    const double m = reach_;
+    return Box(BoxPoint(low.get<0>() - m, low.get<1>() - m, low.get<2>() - m),
+               BoxPoint(high.get<0>() + m, high.get<1>() + m, high.get<2>() + m));
   }
 
   static void expand(Box& box, const Point3& p) { bg::expand(box, BoxPoint(p[0], p[1], p[2])); }
 
-  // The diagonal of the box of all control points (of those with a weight).
-  void measure() {
-    Box box = bg::make_inverse<Box>();
-    for (const BsplinePatch<T, 4>* patch : patches_)
+  // Origin: some control point; exponent: so that no notable control point is farther than about one.
+  void choose_frame() {
+    std::optional<long> exponent;
+    for (const BsplinePatch<T, 4>* patch : patches_) {
+      const long weights = weight_exponent(patch->net());
       for (const Vec<T, 4>& h : patch->net()) {
-        const double w = approximate(h[3]);
-        if (w != 0) expand(box, {approximate(h[0]) / w, approximate(h[1]) / w, approximate(h[2]) / w});
+        const Approximate w = approximate(h[3]);
+        if (std::abs(w.scaled(-weights)) < kNotableWeight) continue;
+        if (!exponent) {
+          for (int c = 0; c < 3; ++c) frame_.origin[c] = h[c] / h[3];
+          exponent = std::numeric_limits<long>::min();
+          continue;
+        }
+        for (int c = 0; c < 3; ++c) {
+          const Approximate x = approximate(T(h[c] - frame_.origin[c] * h[3]));
+          if (x.mantissa != 0) exponent = std::max(*exponent, x.exponent - w.exponent + 1);
+        }
       }
-    if (!patches_.empty()) match_.diagonal = bg::distance(box.min_corner(), box.max_corner());
+    }
+    frame_.exponent = exponent && *exponent != std::numeric_limits<long>::min() ? *exponent : 0;
   }
 
-  void collect_edges() {
+  void collect_edges(double length) {
+    Box all = bg::make_inverse<Box>();
+    std::vector<Edge> edges;
     for (std::size_t p = 0; p < patches_.size(); ++p)
       for (EdgeName name : kEdges) {
-        const EdgeCurve curve = edge_curve(*patches_[p], name);
+        const EdgeCurve curve = edge_curve(*patches_[p], name, frame_);
         Edge edge{static_cast<int>(p), name, {}, bg::make_inverse<Box>()};
-        for (int i = 0; i < kSamples; ++i) expand(edge.box, edge.samples[i] = curve(double(i) / (kSamples - 1)));
+        bool finite = true;
+        for (int i = 0; i < kSamples; ++i) {
+          edge.samples[i] = curve(double(i) / (kSamples - 1));
+          for (double x : edge.samples[i]) finite = finite && std::isfinite(x);
+          if (finite) expand(edge.box, edge.samples[i]);
+          if (i > 0) edge.length += distance(edge.samples[i - 1], edge.samples[i]);
+        }
         for (const Vec<double, 4>& h : curve.points())
-          if (h[3] != 0) expand(edge.box, {h[0] / h[3], h[1] / h[3], h[2] / h[3]});
-        if (bg::distance(edge.box.min_corner(), edge.box.max_corner()) <= 1e-9 * match_.diagonal)
-          add_collapsed(edge);
+          if (std::abs(h[3]) >= kNotableWeight) expand(edge.box, {h[0] / h[3], h[1] / h[3], h[2] / h[3]});
+        bg::expand(all, edge.box);
+        if (finite)
+          edges.push_back(edge);
         else
-          edges_.push_back(edge);
+          unlookable_.push_back(edge);  // doubles cannot follow its curve: listed, never dropped
       }
-  }
-
-  void add_collapsed(const Edge& edge) {
-    const BsplinePatch<T, 4>& patch = *patches_[edge.patch];
-    const auto rows = cross_boundary_rows(patch, edge_line(patch, edge.name), 2);
-    CollapsedEdge out{edge.patch, edge.name, true, true};
-    const Vec<T, 4>& first = rows[0].points().front();
-    for (const Vec<T, 4>& p : rows[0].points())
-      for (int c = 0; c < 3; ++c) out.exactly = out.exactly && p[c] * first[3] == first[c] * p[3];
-    out.tangent_plane = out.exactly && has_tangent_plane(rows);
-    match_.collapsed.push_back(out);
-  }
-
-  // All limit normals n(t) along the collapsed edge on one line and in one sense: n × r vanishes for one fixed n(0) = r
-  // and n · r > 0 throughout.
-  static bool has_tangent_plane(const std::vector<BsplineCurve<T, 4>>& rows) {
-    using R = proof_ring_t<T>;
-    const RoundingGuard guard;
-    const std::vector<T> breaks = rows[0].knots().breaks();
-    std::optional<FormVector<R>> reference;
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-      SideRows<T> piece;
-      for (int k = 0; k < 3; ++k) piece[k] = bezier_coefficients(rows[k], breaks[i], breaks[i + 1]);
-      const ReducedNormal<R> normal = reduce_normal(side_forms<R>(piece));
-      if (!normal.found() || normal.has_factor()) return false;
-      if (!reference) {
-        reference.emplace();
-        for (int c = 0; c < 3; ++c)
-          if (!normal.n[c].is_empty()) (*reference)[c] = BinaryForm<R>::constant(normal.n[c][0]);
-      }
-      if (!vanishes(cross(normal.n, *reference))) return false;
-      for (const R& x : dot(normal.n, *reference).coefficients())
-        if (*scalar_traits<R>::sign(x) != Sign::positive) return false;
+    const double diagonal = edges.empty() ? 0 : bg::distance(all.min_corner(), all.max_corner());
+    local_ = !(length > 0);
+    reach_ = local_ ? 1e-6 * diagonal : Approximate{length, 0}.scaled(-frame_.exponent);
+    match_.diagonal = Approximate{diagonal, frame_.exponent}.scaled(0);
+    match_.length = local_ ? 1e-6 * match_.diagonal : length;
+    for (Edge& edge : edges) {
+      const double size = bg::distance(edge.box.min_corner(), edge.box.max_corner());
+      const BsplinePatch<T, 4>& patch = *patches_[edge.patch];
+      if (size <= 0x1p-40 * diagonal ||
+          (size <= 1e-6 * diagonal && is_one_point(cross_boundary_rows(patch, edge_line(patch, edge.name), 0)[0])))
+        match_.collapsed.push_back(collapsed_edge(patch, edge.patch, edge.name));
+      else
+        edges_.push_back(std::move(edge));
     }
-    return true;
+  }
+
+  // How near points of the two edges must be: what was asked; by default never more than a tenth of the shorter edge, or a
+  // small face's edges would all meet each other.
+  double reach(const Edge& a, const Edge& b) const {
+    return local_ ? std::min(reach_, std::min(a.length, b.length) / 10) : reach_;
   }
 
   IsoLine<T> line(const Edge& e) const { return edge_line(*patches_[e.patch], e.name); }
   const KnotVector<T>& along(const Edge& e) const { return patches_[e.patch]->knots(other(line(e).constant)); }
-  EdgeCurve curve(const Edge& e) const { return edge_curve(*patches_[e.patch], e.name); }
+  EdgeCurve curve(const Edge& e) const { return edge_curve(*patches_[e.patch], e.name, frame_); }
 
-  static bool samples_agree(const Edge& a, const Edge& b, bool reversed, double length) {
+  // The largest distance of samples at equal parameters.
+  static double sample_distance(const Edge& a, const Edge& b, bool reversed) {
+    double largest = 0;
     for (int i = 0; i < kSamples; ++i)
-      if (!(distance(a.samples[i], b.samples[reversed ? kSamples - 1 - i : i]) <= length)) return false;
-    return true;
+      largest = std::max(largest, distance(a.samples[i], b.samples[reversed ? kSamples - 1 - i : i]));
+    return largest;
   }
 
   void join_edges(int i, int j) {
     const Edge &a = edges_[i], &b = edges_[j];
+    const double near = reach(a, b);
     const auto ends_meet = [&](bool reversed) {
       const Point3 &b0 = reversed ? b.end() : b.begin(), &b1 = reversed ? b.begin() : b.end();
-      return distance(a.begin(), b0) <= match_.length && distance(a.end(), b1) <= match_.length;
+      return distance(a.begin(), b0) <= near && distance(a.end(), b1) <= near;
     };
     const std::array<bool, 2> meet{ends_meet(false), ends_meet(true)};  // both when the edges are closed
-    for (const bool reversed : {false, true})
-      if (meet[reversed] && samples_agree(a, b, reversed, match_.length)) return add_whole(a, b, reversed, nullptr);
+    if (meet[0] || meet[1]) {  // a wide match length may allow both directions: the better one is meant
+      const bool reversed = !meet[0] || (meet[1] && sample_distance(a, b, true) < sample_distance(a, b, false));
+      if (sample_distance(a, b, reversed) <= near) return add_whole(a, b, reversed, nullptr);
+    }
     if (meet[0] || meet[1]) {
       const EdgeCurve curve_b = curve(b);
       for (const bool reversed : {false, true})
-        if (meet[reversed] && lies_on(a, curve_b, meet[!reversed] ? std::optional(reversed) : std::nullopt))
+        if (meet[reversed] && lies_on(a, curve_b, meet[!reversed] ? std::optional(reversed) : std::nullopt, near))
           return add_whole(a, b, reversed, &curve_b);
     }
     join_overlap(a, b);
   }
 
   // All samples of a within the match length of the curve and, when asked, met in this direction.
-  bool lies_on(const Edge& a, const EdgeCurve& b, std::optional<bool> reversed) const {
+  static bool lies_on(const Edge& a, const EdgeCurve& b, std::optional<bool> reversed, double near) {
     double last = 0;
     for (int i = 0; i < kSamples; ++i) {
       const auto [unit, gap] = b.nearest(a.samples[i]);
-      if (!(gap <= match_.length)) return false;
+      if (!(gap <= near)) return false;
       if (!reversed || i == 0 || i + 1 == kSamples) continue;  // the ends of a closed edge are one place
       const double along = *reversed ? 1 - unit : unit;
       if (along < last) return false;
@@ -182,28 +188,26 @@ class EdgeMatcher {
     return true;
   }
 
-  JoinKind kind_of(const Edge& a, const Edge& b) const {
-    return a.patch == b.patch ? JoinKind::seam : JoinKind::isoparametric;
-  }
-
   void add_whole(const Edge& a, const Edge& b, bool reversed, const EdgeCurve* differently_run) {
-    Join<T> join{kind_of(a, b), a.patch, b.patch, line(a), line(b), {}};
+    Join<T> join{a.patch == b.patch ? JoinKind::seam : JoinKind::isoparametric, a.patch, b.patch, line(a), line(b), {}};
     T b0 = along(b).domain_begin(), b1 = along(b).domain_end();
     if (reversed) std::swap(b0, b1);
     const T &a0 = along(a).domain_begin(), &a1 = along(a).domain_end();
     join.pairing = affine_pairing(a0, a1, b0, b1);
     // Equal speeds show as samples that agree to rounding; then there is nothing to look for.
-    const bool same_speed = !differently_run && samples_agree(a, b, reversed, 1e-12 * match_.diagonal);
+    const bool same_speed = !differently_run && sample_distance(a, b, reversed) <= 1e-6 * reach_;
     if (auto better = same_speed ? std::nullopt : rational_linear_pairing(*patches_[a.patch], *patches_[b.patch], join))
       join.pairing = *better;
     else if (differently_run)
-      join.pairing = nearest_point_pairing(curve(a), *differently_run, a0, a1, b0, b1, match_.length / 10);
+      join.pairing = nearest_point_pairing(curve(a), *differently_run, a0, a1, b0, b1, reach(a, b) / 10);
     push(std::move(join), a, b);
   }
 
   void push(Join<T> join, const Edge& a, const Edge& b) {
     const auto cover = [&](const Edge& e, const std::vector<T>& nodes) {
-      const double x = nearest_double(nodes.front()), y = nearest_double(nodes.back());
+      const T &begin = along(e).domain_begin(), &end = along(e).domain_end();
+      const double x = nearest_double(T((nodes.front() - begin) / (end - begin)));
+      const double y = nearest_double(T((nodes.back() - begin) / (end - begin)));
       covered_[{e.patch, e.name}].emplace_back(std::min(x, y), std::max(x, y));
     };
     cover(a, join.pairing.a);
@@ -226,10 +230,11 @@ class EdgeMatcher {
     return spread_a < 1e-6 || spread_b < 1e-6;
   }
 
-  // A partial overlap: ends of one edge on the other give two places where they meet.
+  // Partial overlaps: ends of one edge on the other give places where they meet; between neighbouring ones the edges lie
+  // on each other or not. A closed edge's end is two places.
   void join_overlap(const Edge& a, const Edge& b) {
+    const double near = reach(a, b);
     std::vector<Contact> contacts;
-    std::optional<EdgeCurve> curve_a, curve_b;
     const auto contact = [&](int end, double on, bool on_is_end, bool from_a) {
       return from_a ? Contact{double(end), on, true, on_is_end} : Contact{on, double(end), on_is_end, true};
     };
@@ -238,82 +243,82 @@ class EdgeMatcher {
     const auto add_ends = [&](const Edge& from, const Edge& onto, bool from_a) {
       for (const int end : {0, 1}) {
         const Point3& q = end ? from.end() : from.begin();
-        if (distance(onto.begin(), q) <= match_.length) {
-          contacts.push_back(contact(end, 0, true, from_a));
-        } else if (distance(onto.end(), q) <= match_.length) {
-          contacts.push_back(contact(end, 1, true, from_a));
-        } else if (bg::intersects(grown(onto.box), BoxPoint(q[0], q[1], q[2]))) {
+        const bool at_begin = distance(onto.begin(), q) <= near, at_end = distance(onto.end(), q) <= near;
+        if (at_begin) contacts.push_back(contact(end, 0, true, from_a));
+        if (at_end) contacts.push_back(contact(end, 1, true, from_a));
+        if (!at_begin && !at_end && bg::intersects(grown(onto.box), BoxPoint(q[0], q[1], q[2])))
           inside_candidates[from_a ? 0 : 1].push_back(&q);
-        }
       }
     };
     add_ends(a, b, true);
     add_ends(b, a, false);
     if (inside_candidates[0].empty() && inside_candidates[1].empty() && only_touch(contacts)) return;
-    const auto add = [&](const Edge& from, const Edge& onto, std::optional<EdgeCurve>& onto_curve, bool from_a) {
+    const EdgeCurve curve_a = curve(a), curve_b = curve(b);
+    for (const bool from_a : {true, false})
       for (const Point3* q : inside_candidates[from_a ? 0 : 1]) {
-        if (!onto_curve) onto_curve.emplace(curve(onto));
-        const auto [unit, gap] = onto_curve->nearest(*q);
-        if (gap <= match_.length) contacts.push_back(contact(q == &from.end() ? 1 : 0, unit, false, from_a));
+        const auto [unit, gap] = (from_a ? curve_b : curve_a).nearest(*q);
+        const Edge& from = from_a ? a : b;
+        if (gap <= near) contacts.push_back(contact(q == &from.end() ? 1 : 0, unit, false, from_a));
       }
-    };
-    add(a, b, curve_b, true);
-    add(b, a, curve_a, false);
     if (only_touch(contacts)) return;
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& x, const Contact& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
-    const Contact &first = contacts.front(), &last = contacts.back();
-    if (!curve_a) curve_a.emplace(curve(a));
-    if (!curve_b) curve_b.emplace(curve(b));
-    // Near a common vertex every pair of edges is close; what is looked at must be longer than that.
-    if (distance((*curve_a)(first.a), (*curve_a)(last.a)) <= 10 * match_.length) return;
-    for (int i = 1; i + 1 < kSamples; ++i) {
-      const double s = double(i) / (kSamples - 1);
-      const Point3 p = (*curve_a)(first.a + s * (last.a - first.a)), q = (*curve_b)(first.b + s * (last.b - first.b));
-      if (!(distance(p, q) <= match_.length)) return;
+    // What is looked at must be longer than the neighbourhood of a common vertex.
+    const double shortest = std::min(10 * near, std::min(a.length, b.length) / 10);
+    std::size_t first = 0;
+    while (first < contacts.size()) {
+      const auto last_of = [&](std::size_t i) {  // the contacts at one place of a
+        std::size_t k = i;
+        while (k < contacts.size() && contacts[k].a - contacts[i].a < 1e-6) ++k;
+        return k;
+      };
+      const std::size_t next = last_of(first), stop = next < contacts.size() ? last_of(next) : next;
+      for (std::size_t i = first; i < next; ++i)
+        for (std::size_t j = next; j < stop; ++j)
+          if (overlap(contacts[i], contacts[j], curve_a, curve_b, near, shortest)) {
+            add_overlap(a, b, contacts[i], contacts[j]);
+            i = next, j = stop;
+          }
+      first = next;
     }
+  }
+
+  static bool overlap(const Contact& from, const Contact& to, const EdgeCurve& a, const EdgeCurve& b, double near,
+                      double shortest) {
+    double length = 0;
+    Point3 last = a(from.a);
+    for (int i = 1; i < kSamples; ++i) {
+      const double s = double(i) / (kSamples - 1);
+      const Point3 p = a(from.a + s * (to.a - from.a));
+      if (!(distance(p, b(from.b + s * (to.b - from.b))) <= near)) return false;
+      length += distance(last, p);
+      last = p;
+    }
+    return length > shortest;
+  }
+
+  void add_overlap(const Edge& a, const Edge& b, const Contact& from, const Contact& to) {
     Join<T> join{a.patch == b.patch ? JoinKind::seam : JoinKind::t_junction, a.patch, b.patch, line(a), line(b), {}};
-    const auto [a0, b0] = exact_contact(a, b, first);
-    const auto [a1, b1] = exact_contact(a, b, last);
+    const auto [a0, b0] = exact_contact(a, b, from);
+    const auto [a1, b1] = exact_contact(a, b, to);
+    if (!(a0 < a1) || b0 == b1) return;
     join.pairing = affine_pairing(a0, a1, b0, b1);
     push(std::move(join), a, b);
   }
 
-  // Exact parameters of a contact: an end of an edge is its own parameter; a place inside an edge is a knot or a simple
-  // fraction near the one found, whichever comes closest to the other edge's end.
+  // Exact parameters of a contact: an end of an edge is its own parameter; a place inside an edge is found from the other
+  // edge's end.
   std::pair<T, T> exact_contact(const Edge& a, const Edge& b, const Contact& c) const {
     const auto end_of = [&](const Edge& e, double unit) {
       return unit < 0.5 ? along(e).domain_begin() : along(e).domain_end();
     };
+    const auto row = [&](const Edge& e) { return std::move(cross_boundary_rows(*patches_[e.patch], line(e), 0)[0]); };
+    const auto inside = [&](const Edge& e, double unit, const Edge& ending, double end) {
+      return exact_parameter(row(e), evaluate(row(ending), end_of(ending, end)), unit);
+    };
     if (c.a_is_end && c.b_is_end) return {end_of(a, c.a), end_of(b, c.b)};
     if (c.a_is_end) return {end_of(a, c.a), inside(b, c.b, a, c.a)};
     return {inside(a, c.a, b, c.b), end_of(b, c.b)};
-  }
-
-  T inside(const Edge& e, double unit, const Edge& ending, double end) const {
-    const T &begin = along(e).domain_begin(), &stop = along(e).domain_end();
-    std::vector<T> candidates;
-    for (const T& k : along(e).breaks()) {
-      const double at = nearest_double(T((k - begin) / (stop - begin)));
-      if (std::abs(at - unit) < 1e-5) candidates.push_back(k);
-    }
-    for (const double radius : {1e-5, 1e-7, 1e-9, 1e-11, 1e-13})
-      candidates.push_back(at_unit(begin, stop, embed<T>(simplest_fraction(unit, radius))));
-    candidates.push_back(at_unit(begin, stop, embed<T>(from_double(unit))));
-    const auto exact_point = [&](const Edge& x, const T& t) {
-      const BsplineCurve<T, 4> row = std::move(cross_boundary_rows(*patches_[x.patch], line(x), 0)[0]);
-      const Vec<T, 4> h = evaluate(row, t);
-      return Vec<T, 3>{{h[0] / h[3], h[1] / h[3], h[2] / h[3]}};
-    };
-    const Vec<T, 3> target = exact_point(ending, end < 0.5 ? along(ending).domain_begin() : along(ending).domain_end());
-    std::optional<T> best_square;
-    T best = candidates.front();
-    for (const T& t : candidates) {
-      const Vec<T, 3> d = exact_point(e, t) - target;
-      const T square = dot(d, d);
-      if (!best_square || square < *best_square) best_square = square, best = t;
-    }
-    return best;
   }
 
   void add_knot_lines() {
@@ -334,26 +339,32 @@ class EdgeMatcher {
   }
 
   void list_unmatched() {
-    for (const Edge& e : edges_) {
-      const double begin = nearest_double(along(e).domain_begin()), end = nearest_double(along(e).domain_end());
-      // A rest no longer than what tells an overlap from a common vertex is not worth listing.
-      double length = 0;
-      for (int i = 0; i + 1 < kSamples; ++i) length += distance(e.samples[i], e.samples[i + 1]);
-      const double slack = std::max(1e-9, 10 * match_.length / length) * (end - begin);
-      std::vector<std::pair<double, double>>& ranges = covered_[{e.patch, e.name}];
-      std::sort(ranges.begin(), ranges.end());
-      double reached = begin;
-      for (const auto& [from, to] : ranges) {
-        if (from > reached + slack) match_.unmatched.push_back({e.patch, e.name, reached, from});
-        reached = std::max(reached, to);
+    for (const std::vector<Edge>* list : {&edges_, &unlookable_})
+      for (const Edge& e : *list) {
+        // A rest no longer than the neighbourhood of a vertex is not listed, as long as it is a small part of the edge.
+        const double slack = e.length > 0 ? std::clamp(10 * reach_ / e.length, 1e-9, 1e-3) : 0;
+        const auto add = [&](double from, double to) {
+          const T &begin = along(e).domain_begin(), &end = along(e).domain_end();
+          const auto at = [&](double unit) { return nearest_double(at_unit(begin, end, embed<T>(from_double(unit)))); };
+          match_.unmatched.push_back({e.patch, e.name, at(from), at(to)});
+        };
+        std::vector<std::pair<double, double>>& ranges = covered_[{e.patch, e.name}];
+        std::sort(ranges.begin(), ranges.end());
+        double reached = 0;
+        for (const auto& [from, to] : ranges) {
+          if (from > reached + slack) add(reached, from);
+          reached = std::max(reached, to);
+        }
+        if (1 > reached + slack) add(reached, 1);
       }
-      if (end > reached + slack) match_.unmatched.push_back({e.patch, e.name, reached, end});
-    }
   }
 
   const std::vector<const BsplinePatch<T, 4>*>& patches_;
   EdgeMatch<T> match_;
-  std::vector<Edge> edges_;
+  Frame<T> frame_;
+  double reach_ = 0;    // the match length, in the frame
+  bool local_ = false;  // nobody asked for a match length
+  std::vector<Edge> edges_, unlookable_;
   std::map<std::pair<int, EdgeName>, std::vector<std::pair<double, double>>> covered_;
 };
 

@@ -103,4 +103,56 @@ Pairing<T> nearest_point_pairing(const EdgeCurve& a, const EdgeCurve& b, const T
   return pairing;
 }
 
+// The parameter inside the curve's span around `unit` at which it passes exactly through the point, if that is a rational
+// function of the data: the common root of X_c p_w − p_c w, found as their common divisor.
+template <ExactField T>
+std::optional<T> parameter_of_point(const BsplineCurve<T, 4>& row, const Vec<T, 4>& point, double unit) {
+  const T &begin = row.knots().domain_begin(), &end = row.knots().domain_end();
+  const int span = row.knots().find_span(at_unit(begin, end, embed<T>(from_double(std::clamp(unit, 0.0, 1.0)))));
+  const T &a = row.knots()[span], &b = row.knots()[span + 1];
+  const std::vector<Vec<T, 4>> piece = bezier_coefficients(row, a, b);
+  BinaryForm<T> common;
+  for (int c = 0; c < 3; ++c) {
+    std::vector<T> difference;
+    for (const Vec<T, 4>& p : piece) difference.push_back(p[c] * point[3] - point[c] * p[3]);
+    common = gcd(common, BinaryForm<T>::from_bernstein(std::move(difference)));
+  }
+  if (common.degree() > 1) {
+    const BinaryForm<T> multiple = gcd(common, common.derivative());
+    if (multiple.degree() > 0) common = divide_exactly(common, multiple);
+  }
+  if (common.degree() != 1) return std::nullopt;
+  const T slope = common[1] - common[0];  // a0 (1 − t) + a1 t = 0
+  if (*scalar_traits<T>::sign(slope) == Sign::zero) return std::nullopt;
+  const T t = -common[0] / slope;
+  if (t < T(0) || T(1) < t) return std::nullopt;
+  return at_unit(a, b, t);
+}
+
+// The exact parameter, near `unit`, of the place of a curve where another edge ends at `point`: the place itself when it is
+// on the curve, else a knot, a simple fraction or the double found, whichever comes closest.
+template <ExactField T>
+T exact_parameter(const BsplineCurve<T, 4>& row, const Vec<T, 4>& point, double unit) {
+  if (const std::optional<T> exactly = parameter_of_point(row, point, unit)) return *exactly;
+  const T &begin = row.knots().domain_begin(), &stop = row.knots().domain_end();
+  std::vector<T> candidates;
+  for (const T& k : row.knots().breaks())
+    if (std::abs(nearest_double(T((k - begin) / (stop - begin))) - unit) < 1e-5) candidates.push_back(k);
+  for (const double radius : {1e-5, 1e-7, 1e-9, 1e-11, 1e-13})
+    candidates.push_back(at_unit(begin, stop, embed<T>(simplest_fraction(unit, radius))));
+  candidates.push_back(at_unit(begin, stop, embed<T>(from_double(std::clamp(unit, 0.0, 1.0)))));
+  std::optional<T> best_square;
+  T best = candidates.front();
+  for (const T& t : candidates) {
+    const Vec<T, 4> h = evaluate(row, t);
+    T square(0);
+    for (int c = 0; c < 3; ++c) {
+      const T d = h[c] / h[3] - point[c] / point[3];
+      square += d * d;
+    }
+    if (!best_square || square < *best_square) best_square = square, best = t;
+  }
+  return best;
+}
+
 }  // namespace patchproof

@@ -49,7 +49,7 @@ struct Report {
   std::vector<EdgeRange> unmatched;
   std::vector<CollapsedEdge> collapsed;
 
-  // pass, fail or undecided over all joins.
+  // pass, fail or undecided over all joins; undecided when something was asked and there is no join.
   Outcome outcome() const;
 };
 

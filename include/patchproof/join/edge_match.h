@@ -31,7 +31,7 @@ struct EdgeRange {
 struct CollapsedEdge {
   int patch = 0;
   EdgeName edge = EdgeName::u_min;
-  bool exactly = false;        // every point is exactly the same; otherwise within 1e-9 of the diagonal
+  bool exactly = false;        // every point is exactly the same; otherwise within 2^-40 of the diagonal
   bool tangent_plane = false;  // proved: all limit normals at the point are parallel and equally oriented
 };
 
@@ -40,11 +40,12 @@ struct EdgeMatch {
   std::vector<Join<T>> joins;
   std::vector<EdgeRange> unmatched;
   std::vector<CollapsedEdge> collapsed;
-  double diagonal = 0;  // of the box of all control points
+  double diagonal = 0;  // of the box of all edges
   double length = 0;    // the match length used
 };
 
-// length: edges are looked at when their paired points are within it; 0 means 1e-6 of the diagonal.
+// length: edges are looked at when their paired points are within it; 0 means 1e-6 of the diagonal, and never more than a
+// tenth of the shorter edge.
 template <ExactField T>
 EdgeMatch<T> match_edges(const std::vector<const BsplinePatch<T, 4>*>& patches, double length = 0);
 

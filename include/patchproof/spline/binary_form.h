@@ -19,6 +19,8 @@
 
 #include "patchproof/contract.h"
 #include "patchproof/scalar/concepts.h"
+#include "patchproof/scalar/integer.h"
+#include "patchproof/scalar/rational.h"
 #include "patchproof/spline/bernstein.h"
 
 namespace patchproof {
@@ -200,6 +202,53 @@ std::vector<R> divide(std::vector<R>& p, const std::vector<R>& q) {
   return quotient;
 }
 
+// Euclid's algorithm to its end. Monic remainders keep the numbers of a field small.
+template <ExactField R>
+std::vector<R> last_remainder(std::vector<R> p, std::vector<R> q) {
+  while (!q.empty()) {
+    const R lead = q.back();
+    for (R& c : q) c = c / lead;
+    divide(p, q);
+    std::swap(p, q);
+  }
+  return p;
+}
+
+// Divides by the content. REQUIRES not empty.
+inline void make_primitive(std::vector<Integer>& p) {
+  Integer content(0);
+  for (const Integer& c : p) mpz_gcd(content.backend().data(), content.backend().data(), c.backend().data());
+  for (Integer& c : p) mpz_divexact(c.backend().data(), c.backend().data(), content.backend().data());
+}
+
+// Over Q the same on primitive integer polynomials, by pseudo-division: fractions would be reduced at every step.
+inline std::vector<Rational> last_remainder(std::vector<Rational> p, std::vector<Rational> q) {
+  const auto cleared = [](const std::vector<Rational>& f) {
+    Integer common(1);
+    for (const Rational& c : f)
+      mpz_lcm(common.backend().data(), common.backend().data(), mpq_denref(c.backend().data()));
+    std::vector<Integer> out;
+    for (const Rational& c : f) out.push_back(numerator(c) * Integer(common / denominator(c)));
+    if (!out.empty()) make_primitive(out);
+    return out;
+  };
+  std::vector<Integer> a = cleared(p), b = cleared(q);
+  while (!b.empty()) {
+    while (a.size() >= b.size()) {
+      const std::size_t shift = a.size() - b.size();
+      const Integer top = a.back(), lead = b.back();
+      for (std::size_t i = 0; i + 1 < a.size(); ++i) a[i] = i < shift ? lead * a[i] : lead * a[i] - top * b[i - shift];
+      a.pop_back();
+      while (!a.empty() && a.back() == 0) a.pop_back();
+      if (!a.empty()) make_primitive(a);
+    }
+    std::swap(a, b);
+  }
+  std::vector<Rational> out;
+  for (const Integer& c : a) out.push_back(Rational(c));
+  return out;
+}
+
 }  // namespace detail
 
 template <ExactField R>
@@ -211,12 +260,7 @@ BinaryForm<R> gcd(const BinaryForm<R>& f, const BinaryForm<R>& g) {
   std::vector<R> p = f.coefficients(), q = g.coefficients();
   detail::trim(p);
   detail::trim(q);
-  while (!q.empty()) {
-    const R lead = q.back();
-    for (R& c : q) c = c / lead;  // monic remainders keep the numbers small
-    detail::divide(p, q);
-    std::swap(p, q);
-  }
+  p = detail::last_remainder(std::move(p), std::move(q));
   for (int i = 0; i < at_one; ++i) p.push_back(R(0));
   return BinaryForm<R>(std::move(p));
 }
