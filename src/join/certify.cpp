@@ -74,9 +74,9 @@ class JoinCertifier {
   template <class Rebound>
   DeviationBound until_decided(DeviationBound bound, const std::optional<double>& tolerance, Rebound rebound) {
     Budget finer = budget_;
-    for (const double width : {0x1p-20, 0x1p-36, 0x1p-48}) {
+    for (const int bits : {20, 36, 48}) {
       if (!tolerance || *tolerance < bound.lower || bound.upper <= *tolerance) break;
-      finer.relative_width = width;
+      finer.tight_bits = bits;
       bound = rebound(finer);
     }
     return bound;

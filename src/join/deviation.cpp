@@ -204,7 +204,7 @@ DeviationBound bound_deviation(const std::vector<DeviationPiece>& pieces, Deviat
   for (std::size_t i = 0; i < pieces.size(); ++i) push(pieces[i].coefficients, static_cast<int>(i), 0, 0, 1);
   int nodes = 0;
   const auto too_wide = [&](double upper) {
-    return upper == kInfinity || upper - lower > budget.relative_width * upper;
+    return upper == kInfinity || upper - lower > std::ldexp(upper, -budget.tight_bits);
   };
   while (!queue.empty() && too_wide(queue.top().upper)) {
     if (++nodes > budget.nodes) break;

@@ -117,6 +117,22 @@ class EdgeCurve {
   double begin_, end_;
 };
 
+// Are a over [a0, a1] and b over [b0, b1] within `near` of each other, at equal shares of both, for more than `shortest`?
+inline bool run_together(const EdgeCurve& a, double a0, double a1, const EdgeCurve& b, double b0, double b1,
+                         double near, double shortest) {
+  constexpr int kSteps = 8;
+  double length = 0;
+  Point3 last = a(a0);
+  for (int i = 1; i <= kSteps; ++i) {
+    const double s = double(i) / kSteps;
+    const Point3 p = a(a0 + s * (a1 - a0));
+    if (!(distance(p, b(b0 + s * (b1 - b0))) <= near)) return false;
+    length += distance(last, p);
+    last = p;
+  }
+  return length > shortest;
+}
+
 template <ExactField T>
 EdgeCurve edge_curve(const BsplinePatch<T, 4>& patch, EdgeName edge, const Frame<T>& frame) {
   const IsoLine<T> line = edge_line(patch, edge);

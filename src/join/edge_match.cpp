@@ -100,6 +100,7 @@ class EdgeMatcher {
   void collect_edges(double length) {
     Box all = bg::make_inverse<Box>();
     std::vector<Edge> edges;
+    std::vector<Box> of_patch(patches_.size(), all);
     for (std::size_t p = 0; p < patches_.size(); ++p)
       for (EdgeName name : kEdges) {
         const EdgeCurve curve = edge_curve(*patches_[p], name, frame_);
@@ -114,6 +115,7 @@ class EdgeMatcher {
         for (const Vec<double, 4>& h : curve.points())
           if (std::abs(h[3]) >= kNotableWeight) expand(edge.box, {h[0] / h[3], h[1] / h[3], h[2] / h[3]});
         bg::expand(all, edge.box);
+        bg::expand(of_patch[p], edge.box);
         if (finite)
           edges.push_back(edge);
         else
@@ -124,10 +126,13 @@ class EdgeMatcher {
     reach_ = local_ ? 1e-6 * diagonal : Approximate{length, 0}.scaled(-frame_.exponent);
     match_.diagonal = Approximate{diagonal, frame_.exponent}.scaled(0);
     match_.length = local_ ? 1e-6 * match_.diagonal : length;
+    const auto size_of = [](const Box& box) { return bg::distance(box.min_corner(), box.max_corner()); };
     for (Edge& edge : edges) {
-      const double size = bg::distance(edge.box.min_corner(), edge.box.max_corner());
+      const double size = size_of(edge.box);
       const BsplinePatch<T, 4>& patch = *patches_[edge.patch];
-      if (size <= 0x1p-40 * diagonal ||
+      // Small beside the model and beside its own patch; a small face in a large model has edges all the same.
+      const bool small = size <= 1e-9 * diagonal && size <= 1e-6 * size_of(of_patch[edge.patch]);
+      if (small ||
           (size <= 1e-6 * diagonal && is_one_point(cross_boundary_rows(patch, edge_line(patch, edge.name), 0)[0])))
         match_.collapsed.push_back(collapsed_edge(patch, edge.patch, edge.name));
       else
@@ -275,26 +280,13 @@ class EdgeMatcher {
       const std::size_t next = last_of(first), stop = next < contacts.size() ? last_of(next) : next;
       for (std::size_t i = first; i < next; ++i)
         for (std::size_t j = next; j < stop; ++j)
-          if (overlap(contacts[i], contacts[j], curve_a, curve_b, near, shortest)) {
+          if (run_together(curve_a, contacts[i].a, contacts[j].a, curve_b, contacts[i].b, contacts[j].b, near,
+                           shortest)) {
             add_overlap(a, b, contacts[i], contacts[j]);
             i = next, j = stop;
           }
       first = next;
     }
-  }
-
-  static bool overlap(const Contact& from, const Contact& to, const EdgeCurve& a, const EdgeCurve& b, double near,
-                      double shortest) {
-    double length = 0;
-    Point3 last = a(from.a);
-    for (int i = 1; i < kSamples; ++i) {
-      const double s = double(i) / (kSamples - 1);
-      const Point3 p = a(from.a + s * (to.a - from.a));
-      if (!(distance(p, b(from.b + s * (to.b - from.b))) <= near)) return false;
-      length += distance(last, p);
-      last = p;
-    }
-    return length > shortest;
   }
 
   void add_overlap(const Edge& a, const Edge& b, const Contact& from, const Contact& to) {

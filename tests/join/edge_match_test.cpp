@@ -282,7 +282,7 @@ TEST(EdgeMatch, EdgesAtAnotherPaceGetAPiecewiseLinearPairing) {
     }
     EXPECT_TRUE(p.a.front() == q(0) && p.a.back() == q(1));
     const Certificate c = certify(pair, m.joins[0]);
-    EXPECT_EQ(c.c0.verdict, Verdict::refuted);  // with respect to this pairing
+    EXPECT_EQ(c.c0.verdict, Verdict::undecided);  // another pairing might join them
     EXPECT_LE(c.gap.upper, 1e-3);
   }
 }

@@ -39,8 +39,8 @@ enum class Deviation { gap, angle, plane_angle };
 
 // When to stop working on one join. Every limit ends in an honest `undecided`, never in a guess.
 struct Budget {
-  int nodes = 20000;                  // subdivisions per bound: the same on every machine
-  double relative_width = 1.0 / 256;  // stop when (upper − lower) ≤ this · upper (angles: of the tangent-like key)
+  int nodes = 20000;   // subdivisions per bound: the same on every machine
+  int tight_bits = 8;  // stop when (upper − lower) ≤ 2^−tight_bits · upper (angles: of their key)
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
 

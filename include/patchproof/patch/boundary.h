@@ -77,8 +77,10 @@ std::vector<BsplineCurve<T, N, K>> cross_boundary_rows(const BsplinePatch<T, N, 
       const T weight = embed<T>(inward);
       for (int j = 0; j < along.control_count(); ++j) {
         const Vec<T, N>& d = point(span - p + i, j);
-        if (first) points[j] = one ? d : weight * d;
-        else points[j] += one ? d : weight * d;
+        if (first)
+          points[j] = one ? d : weight * d;
+        else
+          points[j] += one ? d : weight * d;
       }
       first = false;
     }
