@@ -24,7 +24,12 @@ using BoxPoint = bg::model::point<double, 3, bg::cs::cartesian>;
 using Box = bg::model::box<BoxPoint>;
 
 constexpr std::array<EdgeName, 4> kEdges{EdgeName::u_min, EdgeName::u_max, EdgeName::v_min, EdgeName::v_max};
-constexpr int kSamples = 9;  // places compared when an edge is looked at; the certificate covers all of it
+// None of these decides a verdict; they only decide which edges are looked at (docs/decisions.md).
+constexpr double kDefaultReach = 1e-6;  // match length nobody asked for, of the diagonal
+constexpr double kPointLike = 1e-9;     // size of an edge that counts as collapsed, of the diagonal …
+constexpr double kSmallOfPatch = 1e-6;  // … if it is also this small beside its patch
+constexpr double kSamePlace = 1e-6;     // contacts nearer than this share of an edge are one
+constexpr int kSamples = 9;             // places compared when an edge is looked at; the certificate covers all of it
 
 // What is kept of every edge; its curve is made again when it is needed.
 struct Edge {
@@ -123,17 +128,17 @@ class EdgeMatcher {
       }
     const double diagonal = edges.empty() ? 0 : bg::distance(all.min_corner(), all.max_corner());
     local_ = !(length > 0);
-    reach_ = local_ ? 1e-6 * diagonal : Approximate{length, 0}.scaled(-frame_.exponent);
+    reach_ = local_ ? kDefaultReach * diagonal : Approximate{length, 0}.scaled(-frame_.exponent);
     match_.diagonal = Approximate{diagonal, frame_.exponent}.scaled(0);
-    match_.length = local_ ? 1e-6 * match_.diagonal : length;
+    match_.length = local_ ? kDefaultReach * match_.diagonal : length;
     const auto size_of = [](const Box& box) { return bg::distance(box.min_corner(), box.max_corner()); };
     for (Edge& edge : edges) {
       const double size = size_of(edge.box);
       const BsplinePatch<T, 4>& patch = *patches_[edge.patch];
       // Small beside the model and beside its own patch; a small face in a large model has edges all the same.
-      const bool small = size <= 1e-9 * diagonal && size <= 1e-6 * size_of(of_patch[edge.patch]);
-      if (small ||
-          (size <= 1e-6 * diagonal && is_one_point(cross_boundary_rows(patch, edge_line(patch, edge.name), 0)[0])))
+      const bool small = size <= kPointLike * diagonal && size <= kSmallOfPatch * size_of(of_patch[edge.patch]);
+      if (small || (size <= kDefaultReach * diagonal &&
+                    is_one_point(cross_boundary_rows(patch, edge_line(patch, edge.name), 0)[0])))
         match_.collapsed.push_back(collapsed_edge(patch, edge.patch, edge.name));
       else
         edges_.push_back(std::move(edge));
@@ -232,7 +237,7 @@ class EdgeMatcher {
       spread_a = std::max(spread_a, std::abs(x.a - contacts[0].a));
       spread_b = std::max(spread_b, std::abs(x.b - contacts[0].b));
     }
-    return spread_a < 1e-6 || spread_b < 1e-6;
+    return spread_a < kSamePlace || spread_b < kSamePlace;
   }
 
   // Partial overlaps: ends of one edge on the other give places where they meet; between neighbouring ones the edges lie
@@ -274,7 +279,7 @@ class EdgeMatcher {
     while (first < contacts.size()) {
       const auto last_of = [&](std::size_t i) {  // the contacts at one place of a
         std::size_t k = i;
-        while (k < contacts.size() && contacts[k].a - contacts[i].a < 1e-6) ++k;
+        while (k < contacts.size() && contacts[k].a - contacts[i].a < kSamePlace) ++k;
         return k;
       };
       const std::size_t next = last_of(first), stop = next < contacts.size() ? last_of(next) : next;
