@@ -19,6 +19,7 @@ const char* to_string(ErrorCode code) {
     case ErrorCode::vanishing_weight: return "vanishing_weight";
     case ErrorCode::bad_reference: return "bad_reference";
     case ErrorCode::mixed_roots: return "mixed_roots";
+    case ErrorCode::outside_domain: return "outside_domain";
     case ErrorCode::usage: return "usage";
   }
   return "unknown";

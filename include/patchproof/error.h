@@ -30,6 +30,7 @@ enum class ErrorCode {
   vanishing_weight,  // the denominator of a rational patch is zero inside its domain
   bad_reference,     // patch 7 of a model with 6 patches
   mixed_roots,       // sqrt(2) and sqrt(3) in one model
+  outside_domain,    // parameter 1.5 of a patch over [0, 1], a parameter that is NaN
   usage,             // a request that makes no sense
 };
 

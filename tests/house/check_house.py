@@ -29,7 +29,7 @@ MAY_INCLUDE = {
     "c_api": BELOW_IO + ["io"],
     "cli": BELOW_IO + ["io", "c_api"],
 }
-ROOM_OF_ROOT_FILE = {"error": "base", "contract": "base", "vec": "base", "c_api": "c_api"}
+ROOM_OF_ROOT_FILE = {"error": "base", "contract": "base", "vec": "base", "instruction_set": "base", "c_api": "c_api"}
 TEMPLATE_ROOMS = ["spline", "patch", "join"]
 SCANNED = ["include", "src", "kernels", "tests", "examples", "validation", "cmake", "docs", ".ci"]
 SOURCE = {".h", ".hpp", ".cpp", ".c", ".py", ".cmake"}

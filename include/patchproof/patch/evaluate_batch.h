@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces at many parameters at once, in double, by SIMD kernels.
+//
+//   S(u,v) = Σ w_ij P_ij N_{i,p}(u) N_{j,q}(v) / Σ w_ij N_{i,p}(u) N_{j,q}(v)
+//   S_u, S_v, S_uu, S_uv, S_vv;   normal (S_u × S_v) / |S_u × S_v|
+//
+// Bézier patches are B-spline patches with Bézier knots. A batch surface is prepared once: each polynomial piece becomes a
+// power series about doubles near the middle of its spans, computed from the numbers given in doubled precision and
+// rounded once. After that it never changes: any number of threads may use one without locks, and no call allocates (but
+// for an error's text and for threads > 1).
+//
+// REQUIRES  rounding to nearest; outputs do not overlap the parameters; any alignment, any count, 0 included.
+// ENSURES   (1) each number is within error_bounds.h's bound of the exact value of the formula at the given doubles;
+//           (2) the same (u,v) gives the same bits: whatever its place, the count, the layout, scattered or grid, the
+//           number of threads, whatever else is asked for, and on every instruction set with fused multiply-add;
+//           (3) both ends of the domain have values; at a knot the side chooses the limit;  (4) a parameter outside the
+//           domain, or NaN, or a zero of the denominator ends the call with an error that names its index. Of the output,
+//           whole tiles before that index may be written, nothing after the index's tile;
+//           (5) |point − exact| ≤ bound[i] in each coordinate (evaluate_bounded);  (6) lower[i] ≤ exact ≤ upper[i]
+//           (evaluate_interval);  (7) evaluate_correctly_rounded: the double nearest to the exact coordinate, the even one
+//           of two;  (8) evaluate_compensated: as if in twice the precision, then rounded: error ≤ (1/2 + 2^-20) ulp but
+//           where the sum of the moduli of the terms exceeds 2^30 times the value.
+// ERRORS    make: bad_degree, wrong_count, bad_number (NaN, infinite, overflowing), decreasing_knots, empty_domain.
+//           evaluate…: outside_domain, vanishing_weight.
+// COST      validation/bench measures it. make: about a microsecond for each polynomial piece of degree (3, 3).
+// NEIGHBOURS bspline_patch.h, rational_patch.h (the exact templates, the oracle of the tests), error_bounds.h.
+// TEST      tests/patch/evaluate_batch_test.cpp checks (1)–(6), correctly_rounded_test.cpp (7), (8).
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "patchproof/patch/bspline_patch.h"
+#include "patchproof/spline/evaluate_batch.h"
+
+namespace patchproof {
+
+struct SurfaceData {
+  int degree_u = 0, degree_v = 0;
+  std::span<const double> knots_u, knots_v;
+  std::span<const double> points;   // x y z of each control point, j (along v) running fastest
+  std::span<const double> weights;  // of each control point; empty: all 1
+};
+
+// What is wanted, and where it goes. Only what is asked for is computed.
+struct SurfaceOutput {
+  VectorArray point, du, dv, normal, duu, duv, dvv;
+};
+
+struct SurfaceBatchOptions {
+  Side side_u = Side::right, side_v = Side::right;
+  int threads = 1;                                        // 0: one per processor
+  InstructionSet instructions = InstructionSet::fastest;  // REQUIRES is_available(instructions)
+};
+
+namespace kernels {
+struct SurfacePieces;
+}
+
+class BatchSurface {
+ public:
+  static Result<BatchSurface> make(const SurfaceData& data);
+
+  ParameterBox<double> domain() const;
+  int degree(Direction d) const;
+  bool is_rational() const;
+
+  // Item i at (u[i], v[i]), in any order. REQUIRES as many u as v.
+  Result<BatchSummary> evaluate(std::span<const double> u, std::span<const double> v, const SurfaceOutput& out,
+                                const SurfaceBatchOptions& options = {}) const;
+  // Item i · v.size() + j at (u[i], v[j]).
+  Result<BatchSummary> evaluate_grid(std::span<const double> u, std::span<const double> v, const SurfaceOutput& out,
+                                     const SurfaceBatchOptions& options = {}) const;
+  // bound[i] ≥ |computed − exact| in each coordinate of point i.
+  Result<BatchSummary> evaluate_bounded(std::span<const double> u, std::span<const double> v, const VectorArray& point,
+                                        double* bound, const SurfaceBatchOptions& options = {}) const;
+  Result<BatchSummary> evaluate_interval(std::span<const double> u, std::span<const double> v, const VectorArray& lower,
+                                         const VectorArray& upper, const SurfaceBatchOptions& options = {}) const;
+  Result<BatchSummary> evaluate_compensated(std::span<const double> u, std::span<const double> v,
+                                            const VectorArray& point, const SurfaceBatchOptions& options = {}) const;
+  Result<BatchSummary> evaluate_correctly_rounded(std::span<const double> u, std::span<const double> v,
+                                                  const VectorArray& point,
+                                                  const SurfaceBatchOptions& options = {}) const;
+
+  const kernels::SurfacePieces& pieces() const { return *pieces_; }
+
+ private:
+  explicit BatchSurface(std::shared_ptr<const kernels::SurfacePieces> pieces) : pieces_(std::move(pieces)) {}
+  std::shared_ptr<const kernels::SurfacePieces> pieces_;
+};
+
+}  // namespace patchproof

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Curves at many parameters at once, in double, by SIMD kernels. (patch/evaluate_batch.h: the same for surfaces.)
+//
+//   C(t) = Σ w_i P_i N_{i,p}(t) / Σ w_i N_{i,p}(t),    C', C''
+//
+// A batch curve is prepared once: each polynomial piece is turned into a power series about a double near its middle, from
+// the numbers given, in doubled precision, and rounded once. After that it never changes: any number of threads may use
+// one without locks, and no call allocates (but for an error's text and for threads > 1).
+//
+// REQUIRES  rounding to nearest; output arrays do not overlap the parameters; any alignment, any count, 0 included.
+// ENSURES   (1) each number is within error_bounds.h's bound of the exact one, the exact value of the formula above at the
+//           given doubles;  (2) the same parameter gives the same bits: whatever its place, the count, the layout, the
+//           number of threads, whether derivatives are asked for, and on every instruction set with fused multiply-add;
+//           (3) both ends of the domain have values; at a knot `side` chooses the limit;  (4) a parameter outside the
+//           domain, or NaN, or a zero of the denominator ends the call with an error that names its index. Of the output,
+//           whole tiles of parameters before that index are written, none after the index's tile.
+// ERRORS    make: bad_degree, wrong_count, bad_number (NaN, infinite or overflowing), decreasing_knots, empty_domain.
+//           evaluate: outside_domain, vanishing_weight.
+// COST      see validation/bench; per value of degree p about 3(p + 1) fused operations on a vector of parameters.
+// SOURCE    Horner's rule with derivatives: N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §5.2.
+// NEIGHBOURS curve.h (the exact template, the oracle of the tests), patch/error_bounds.h.
+// TEST      tests/spline/evaluate_batch_test.cpp checks (1)–(4).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "patchproof/error.h"
+#include "patchproof/instruction_set.h"
+#include "patchproof/spline/knot_vector.h"
+
+namespace patchproof {
+
+// Where the vectors of one quantity go: the i-th to x[i·stride], y[i·stride], z[i·stride]. Empty: not wanted.
+struct VectorArray {
+  double* x = nullptr;
+  double* y = nullptr;
+  double* z = nullptr;
+  std::ptrdiff_t stride = 1;
+
+  // Three arrays of one coordinate each.
+  static VectorArray separate(double* x, double* y, double* z) { return {x, y, z, 1}; }
+  // xyzxyz…
+  static VectorArray interleaved(double* xyz) { return {xyz, xyz + 1, xyz + 2, 3}; }
+  // One field of an array of records that are `stride` doubles long.
+  static VectorArray records(double* first, std::ptrdiff_t stride) { return {first, first + 1, first + 2, stride}; }
+
+  bool wanted() const { return x != nullptr; }
+  VectorArray from(std::ptrdiff_t i) const {
+    return wanted() ? VectorArray{x + i * stride, y + i * stride, z + i * stride, stride} : *this;
+  }
+};
+
+struct CurveData {
+  int degree = 0;
+  std::span<const double> knots;
+  std::span<const double> points;   // x y z of each control point
+  std::span<const double> weights;  // of each control point; empty: all 1
+};
+
+struct CurveOutput {
+  VectorArray point, first, second;
+};
+
+struct CurveBatchOptions {
+  Side side = Side::right;
+  int threads = 1;                                        // 0: one per processor
+  InstructionSet instructions = InstructionSet::fastest;  // REQUIRES is_available(instructions)
+};
+
+namespace kernels {
+struct CurvePieces;
+}
+
+// What a call did.
+struct BatchSummary {
+  std::size_t undefined_normals = 0;  // normals asked for where the computed S_u × S_v is 0; they are written as 0 0 0
+};
+
+class BatchCurve {
+ public:
+  static Result<BatchCurve> make(const CurveData& data);
+
+  double domain_begin() const;
+  double domain_end() const;
+  int degree() const;
+  bool is_rational() const;
+
+  // Item i at t[i]. Sorted parameters are fastest, any order is right.
+  Result<BatchSummary> evaluate(std::span<const double> t, const CurveOutput& out,
+                                const CurveBatchOptions& options = {}) const;
+
+  const kernels::CurvePieces& pieces() const { return *pieces_; }
+
+ private:
+  explicit BatchCurve(std::shared_ptr<const kernels::CurvePieces> pieces) : pieces_(std::move(pieces)) {}
+  std::shared_ptr<const kernels::CurvePieces> pieces_;
+};
+
+}  // namespace patchproof
