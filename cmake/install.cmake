@@ -1,7 +1,7 @@
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/patchproof)
 
-install(TARGETS patchproof_exact patchproof_all EXPORT patchproof-targets
+install(TARGETS patchproof_exact patchproof_kernels patchproof_all EXPORT patchproof-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 if(TARGET patchproof_program)
   install(TARGETS patchproof_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

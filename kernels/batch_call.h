@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all batch calls share: threads, and errors that name the first bad parameter.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "kernels/kernel_table.h"
+#include "patchproof/scalar/parse_scalar.h"
+
+namespace patchproof::batch {
+
+inline std::string text(double x) { return to_text(x); }
+
+// Items a thread takes at a time: a multiple of the tiles of all kernels and of all vectors.
+constexpr std::size_t kShare = std::size_t{1} << 14;
+
+// part(begin, count) → kernels::Progress for a range of items, whole shares but for the last one and for single items;
+// describe(i): item i's parameters, for the error.
+template <class Part, class Describe>
+Result<BatchSummary> run(std::size_t count, std::size_t share, int threads, const Part& part,
+                         const Describe& describe) {
+  PATCHPROOF_REQUIRES(threads >= 0, "batch evaluation: the number of threads is not negative");
+  kernels::Progress all;
+  std::size_t first_bad = count;
+  if (threads == 1 || count <= share) {
+    all = part(0, count);
+    if (all.stop != kernels::Stop::none) first_bad = all.good;
+  } else {
+    std::vector<kernels::Progress> shares((count + share - 1) / share);
+    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, shares.size(),
+                        [&](std::size_t s) { shares[s] = part(s * share, std::min(share, count - s * share)); });
+    });
+    for (std::size_t s = 0; s < shares.size() && all.stop == kernels::Stop::none; ++s) {
+      all.undefined_normals += shares[s].undefined_normals;
+      all.stop = shares[s].stop;
+      if (all.stop != kernels::Stop::none) first_bad = s * share + shares[s].good;
+    }
+  }
+  if (all.stop == kernels::Stop::none) return BatchSummary{all.undefined_normals};
+  if (all.stop == kernels::Stop::vanishing_weight)  // known to a tile: find the item
+    while (first_bad + 1 < count && part(first_bad, 1).stop == kernels::Stop::none) ++first_bad;
+  const bool outside = all.stop == kernels::Stop::outside_domain;
+  return Error{outside ? ErrorCode::outside_domain : ErrorCode::vanishing_weight,
+               "parameter " + std::to_string(first_bad),
+               outside ? "the parameter lies outside the domain" : "the denominator is zero at this parameter",
+               describe(first_bad)};
+}
+
+}  // namespace patchproof::batch

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels of one instruction set. Each instruction set's file defines one table; dispatch.cpp chooses.
+//
+// All return how many leading parameters were good: less than the count where a parameter lies outside the domain or is
+// NaN, or where the denominator vanishes (Stop says which). Nothing beyond the tile of a bad parameter is written.
+#pragma once
+
+#include <cstddef>
+
+#include "kernels/pieces.h"
+#include "patchproof/patch/evaluate_batch.h"
+
+namespace patchproof::kernels {
+
+enum class Stop { none, outside_domain, vanishing_weight };
+
+struct Progress {
+  std::size_t good = 0;
+  Stop stop = Stop::none;
+  std::size_t undefined_normals = 0;
+};
+
+struct SurfaceCall {
+  SurfaceOutput out;
+  double* bound = nullptr;   // evaluate_bounded
+  VectorArray lower, upper;  // evaluate_interval
+  bool left_u = false, left_v = false;
+};
+
+struct KernelTable {
+  Progress (*surface)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count);
+  // Rows of the grid: item i · count_v + j. `good` counts items of the failing kind along its own direction.
+  Progress (*grid)(const SurfacePieces&, const SurfaceCall&, const double* u, std::size_t count_u, const double* v,
+                   std::size_t count_v);
+  Progress (*curve)(const CurvePieces&, const CurveOutput&, bool left, const double* t, std::size_t count);
+  // Point and the bound of its distance from the exact one before the last rounding; see compensated.h.
+  Progress (*compensated)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count,
+                          unsigned char* undecided);
+};
+
+const KernelTable& kernel_table(InstructionSet set);  // REQUIRES is_available(set)
+
+extern const KernelTable kPortable;
+#if defined(PATCHPROOF_KERNELS_X86)
+extern const KernelTable kSse4, kAvx2, kAvx512;
+#elif defined(PATCHPROOF_KERNELS_NEON)
+extern const KernelTable kNeon;
+#endif
+
+}  // namespace patchproof::kernels

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/table_of_target.h"
+
+namespace patchproof::kernels {
+const KernelTable kPortable = HWY_NAMESPACE::table();
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// All kernels for the instruction set of the including file: its compiler flags choose highway's target.
+#pragma once
+
+#include "kernels/grid_kernels.h"
+
+namespace patchproof::kernels::HWY_NAMESPACE {
+
+inline KernelTable table() { return {&surface, &grid, &curve, nullptr}; }
+
+}  // namespace patchproof::kernels::HWY_NAMESPACE

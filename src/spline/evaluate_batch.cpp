@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patchproof/spline/evaluate_batch.h"
+
+#include "kernels/batch_call.h"
+#include "kernels/kernel_table.h"
+#include "kernels/prepare.h"
+
+namespace patchproof {
+
+Result<BatchCurve> BatchCurve::make(const CurveData& data) {
+  auto pieces = kernels::prepare(data);
+  if (!pieces) return pieces.error();
+  return BatchCurve(std::make_shared<const kernels::CurvePieces>(std::move(*pieces)));
+}
+
+double BatchCurve::domain_begin() const { return pieces_->t.begin; }
+double BatchCurve::domain_end() const { return pieces_->t.end; }
+int BatchCurve::degree() const { return pieces_->t.degree; }
+bool BatchCurve::is_rational() const { return pieces_->rational; }
+
+Result<BatchSummary> BatchCurve::evaluate(std::span<const double> t, const CurveOutput& out,
+                                          const CurveBatchOptions& options) const {
+  const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
+  const auto part = [&](std::size_t begin, std::size_t count) {
+    const auto from = static_cast<std::ptrdiff_t>(begin);
+    return table.curve(*pieces_, {out.point.from(from), out.first.from(from), out.second.from(from)},
+                       options.side == Side::left, t.data() + begin, count);
+  };
+  return batch::run(t.size(), batch::kShare, options.threads, part,
+                    [&](std::size_t i) { return "t = " + batch::text(t[i]); });
+}
+
+}  // namespace patchproof
