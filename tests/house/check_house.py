@@ -125,8 +125,8 @@ class House:
                 self.report("direction", path, line, f"{room} must not include {name}")
             if NUMBER_LIBRARY.match(name) and room != "scalar" and parts[0] != "src" and parts[:2] != ("tests", "scalar"):
                 self.report("library", path, line, f"{name} belongs to scalar/ and src/ only")
-            if OCCT.search(name) and parts[:2] != ("src", "io"):
-                self.report("library", path, line, f"{name} belongs to src/io/ only")
+            if OCCT.search(name) and parts[:2] not in {("src", "io"), ("validation", "peers"), ("validation", "bench")}:
+                self.report("library", path, line, f"{name} belongs to src/io/ and to the peers")
             if name.startswith("kernels/") and parts[0] == "src" and path.name != "evaluate_batch.cpp":
                 self.report("library", path, line, "only evaluate_batch.cpp calls the kernels")
 
