@@ -68,9 +68,8 @@ class Batch {
       points[i] = rows.edge[0].data();
       weights[i] = kind == polynomial ? nullptr : (*rows.weights)[0].data();
     }
-    const LaneAnswers answers = kind == polynomial
-                                    ? table_.polynomial(points, Depth::all)
-                                    : table_.rational(points, weights, kind == cartesian, Depth::all);
+    const LaneAnswers answers = kind == polynomial ? table_.polynomial(points, Depth::all)
+                                                   : table_.rational(points, weights, kind == cartesian, Depth::all);
     for (int i = 0; i < w.count; ++i) write(answers, 1u << i, w.joins[i]);
     w.count = 0;
   }

@@ -2,11 +2,9 @@
 // AVX-512 with IFMA: products 52 × 52 → 104 in two instructions, primes below 2^47, R = 2^52.
 #include "kernels/join/decide_lanes.h"
 #include "kernels/join/lanes_avx512.h"
+#include "kernels/join/primes.h"
 
 namespace {
-
-// 2^47 − kBelow47[q] are the greatest primes below 2^47.
-constexpr unsigned kBelow47[10] = {115, 127, 147, 279, 297, 339, 435, 541, 619, 649};
 
 // p < R / 32: all ranges of decide_lanes.h hold with room, since sums divide by R = 32 p instead of 16 p. A sum keeps the
 // low and the high halves of its products apart; 4096 of them fit.
@@ -20,7 +18,7 @@ class Residues47 {
   };
 
   explicit Residues47(int q) {
-    const unsigned long long p = (1ULL << 47) - kBelow47[q], mask = (1ULL << 52) - 1;
+    const unsigned long long p = (1ULL << 47) - patchproof::kernels::kBelow47[q], mask = (1ULL << 52) - 1;
     unsigned long long inverse = p;  // modulo 2^3: p² = 1; each step doubles the bits
     for (int i = 0; i < 5; ++i) inverse *= 2 - p * inverse;
     p_ = Lanes::constant_bits(p);

@@ -34,7 +34,6 @@ static_assert(8 * kStage * kStage < 240 && 9 * kCross * 3.02 < 240 && 9 * kCross
 static_assert(kWeighted < 2 && 4 * (kWeighted + 2) * kWeighted <= kWedge && kWedge < 240);
 static_assert(30 * kPlucker * kPlucker < 240 && 30 * kPlucker * kPlucker / 16 + 1 < 16);
 
-
 template <class L>
 int largest_exponent(typename L::D x) {  // the least e with x < 2^e for all lanes, e ≥ −1021
   double all[L::kCount], largest = 0;
@@ -228,8 +227,8 @@ LaneAnswers decide_rational(const double* const* points, const double* const* we
   answers.filter = filtered.nonzero;
   const unsigned left = rows.in_range & ~filtered.nonzero;
   if (depth == Depth::filter || left == 0) return answers;
-  const unsigned exact = left & are_whole<L>(x, rows.points, rows.inverse_points) &
-                         are_whole<L>(w, rows.weights, rows.inverse_weights);
+  const unsigned exact =
+      left & are_whole<L>(x, rows.points, rows.inverse_points) & are_whole<L>(w, rows.weights, rows.inverse_weights);
   if (exact == 0) return answers;
 
   if (exact != L::kAll) {

@@ -6,12 +6,12 @@ namespace patchproof::kernels {
 
 // One bit for each lane. A lane in none of filter, modular, coplanar was not decided. The others speak of coplanar lanes.
 struct LaneAnswers {
-  unsigned filter = 0;      // det ≠ 0 by the floating filter
-  unsigned modular = 0;     // det ≠ 0 modulo a prime
-  unsigned coplanar = 0;    // det ≡ 0, proved
-  unsigned opposed = 0;     // n_A · n_B < 0 along the edge, proved: smooth
-  unsigned c1 = 0;          // C1, proved
-  unsigned not_c1 = 0;      // refuted
+  unsigned filter = 0;    // det ≠ 0 by the floating filter
+  unsigned modular = 0;   // det ≠ 0 modulo a prime
+  unsigned coplanar = 0;  // det ≡ 0, proved
+  unsigned opposed = 0;   // n_A · n_B < 0 along the edge, proved: smooth
+  unsigned c1 = 0;        // C1, proved
+  unsigned not_c1 = 0;    // refuted
 };
 
 // How far to go; parts are timed by the benchmark.

@@ -2,10 +2,9 @@
 // Residues modulo primes below 2^28 by products 32 × 32 → 64, R = 2^32: any instruction set. Ranges: decide_lanes.h.
 #pragma once
 
-namespace {
+#include "kernels/join/primes.h"
 
-// 2^28 − kBelow28[q] are the greatest primes below 2^28.
-constexpr unsigned kBelow28[16] = {57, 89, 95, 119, 125, 143, 165, 183, 213, 273, 285, 299, 309, 323, 327, 335};
+namespace {
 
 template <class L>
 class Residues28 {
@@ -16,7 +15,7 @@ class Residues28 {
   using Sum = typename L::I;
 
   explicit Residues28(int q) {
-    const unsigned p = (1u << 28) - kBelow28[q];
+    const unsigned p = (1u << 28) - patchproof::kernels::kBelow28[q];
     unsigned inverse = p;  // modulo 2^3: p² = 1; each step doubles the bits
     for (int i = 0; i < 4; ++i) inverse *= 2 - p * inverse;
     p_ = L::constant_bits(p);
@@ -36,7 +35,9 @@ class Residues28 {
     return L::fnma(quotient, modulus_, x);
   }
   // factor · remainder + 2 p in the low bits of the mantissa: products read 32 bits.
-  Number number(D remainder, double factor) const { return L::bits_of(L::fma(remainder, L::constant(factor), offset_)); }
+  Number number(D remainder, double factor) const {
+    return L::bits_of(L::fma(remainder, L::constant(factor), offset_));
+  }
   Number one() const { return one_; }
 
   static Sum zero() { return L::no_bits(); }

@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Does an archive hold shared code that was compiled for one instruction set? Exits with 1 if so.
+
+    check_symbols.py ARCHIVE MEMBER_PART...
+
+Weak symbols (inline functions, template instances) are merged by the linker: the copy of an object file with special flags
+might serve the whole program, on processors without the instructions. Members whose name contains a MEMBER_PART may define
+none. An archive without such a member is an error too: then nothing was checked.
+"""
+import subprocess
+import sys
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    archive, parts = sys.argv[1], sys.argv[2:]
+    listing = subprocess.run(["nm", "--demangle", archive], check=True, capture_output=True, text=True).stdout
+    member, checked, found = "", set(), []
+    for line in listing.splitlines():
+        if line.endswith(":"):
+            member = line[:-1]
+            checked.update(part for part in parts if part in member)
+        elif any(part in member for part in parts):
+            kind, _, name = line[17:].partition(" ")
+            if kind and kind in "WVu" and not line.startswith(" "):  # defined ones have an address
+                found.append(f"{member}: {name}")
+    for symbol in found:
+        print(symbol)
+    for part in parts:
+        if part not in checked:
+            found.append(part)
+            print(f"no member {part}")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()
