@@ -115,8 +115,9 @@ struct CurveKernel {
         good = run(c, 0, t + at, n, at, out);
       } else {
         locate(c.t, left, t + at, n, span, x);
+        const bool runs = mostly_runs(span, n);
         std::size_t pending = 0;  // scattered parameters before `i` that are not yet done
-        for (std::size_t i = 0; i < n;) {
+        for (std::size_t i = 0; runs && i < n;) {
           const std::size_t length = run_length(span, i, n);
           if (length >= 2 * static_cast<std::size_t>(kLanes)) {
             good = scattered(c, span + pending, x + pending, i - pending, at + pending, out) && good;

@@ -32,6 +32,8 @@ struct KernelTable {
   // Rows of the grid: item i · count_v + j. `good` counts items of the failing kind along its own direction.
   Progress (*grid)(const SurfacePieces&, const SurfaceCall&, const double* u, std::size_t count_u, const double* v,
                    std::size_t count_v);
+  // Points with the bound of each (call.bound), or enclosures (call.lower, call.upper).
+  Progress (*bounded)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count);
   Progress (*curve)(const CurvePieces&, const CurveOutput&, bool left, const double* t, std::size_t count);
   // Point and the bound of its distance from the exact one before the last rounding; see compensated.h.
   Progress (*compensated)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count,

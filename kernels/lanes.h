@@ -161,6 +161,23 @@ PATCHPROOF_INLINE Quad scale(const Quad& a, Scalar x) {
   return out;
 }
 
+// A number that multiplies x, y, z, while its modulus multiplies the fourth: the term of a bound.
+struct SignedScalar {
+  double x;
+};
+constexpr std::uint64_t kSigns[8] = {~0ULL, ~0ULL, ~0ULL, ~0ULL >> 1, ~0ULL, ~0ULL, ~0ULL, ~0ULL >> 1};
+template <class Tag>
+PATCHPROOF_INLINE hn::Vec<Tag> with_modulus(Tag tag, double x, int first) {
+  return hn::And(hn::Set(tag, x), hn::BitCast(tag, hn::LoadU(hn::RebindToUnsigned<Tag>(), kSigns + first % 4)));
+}
+PATCHPROOF_INLINE Quad fma(const Quad& a, SignedScalar x, const Quad& c) {
+  Quad out;
+#pragma GCC unroll 4
+  for (int i = 0; i < kQuadParts; ++i)
+    out.part[i] = hn::MulAdd(a.part[i], with_modulus(Q(), x.x, i * kQuadLanes), c.part[i]);
+  return out;
+}
+
 // The fourth number of a quad, in all lanes of a quad's vectors.
 struct Weight {
   hn::Vec<Q> v;
@@ -221,6 +238,14 @@ PATCHPROOF_INLINE Octet fma(const Octet& a, Scalar x, const Octet& c) {
   const auto xs = hn::Set(O(), x.x);
 #pragma GCC unroll 8
   for (int i = 0; i < kOctetParts; ++i) out.part[i] = hn::MulAdd(a.part[i], xs, c.part[i]);
+  return out;
+}
+
+PATCHPROOF_INLINE Octet fma(const Octet& a, SignedScalar x, const Octet& c) {
+  Octet out;
+#pragma GCC unroll 8
+  for (int i = 0; i < kOctetParts; ++i)
+    out.part[i] = hn::MulAdd(a.part[i], with_modulus(O(), x.x, i * kOctetLanes), c.part[i]);
   return out;
 }
 

@@ -23,29 +23,34 @@ inline std::size_t count_inside(const Axis& axis, const double* t, std::size_t c
   return i;
 }
 
-// REQUIRES parameters in the domain, count ≤ kTile; room for kTile numbers; writes whole vectors.
-inline void locate(const Axis& axis, bool from_left, const double* t, std::size_t count, std::int64_t* span,
-                   double* x) {
-  using I = hn::RebindToSigned<D>;
-  const double* begins = axis.begins(from_left);
-  const V magic = hn::Set(D(), 0x1p52), origin = hn::Set(D(), axis.begin), per_unit = hn::Set(D(), axis.per_unit);
-  for (std::size_t i = 0; i < count; i += kLanes) {
-    const std::size_t left = count - i;
-    const V at = left >= static_cast<std::size_t>(kLanes)
-                     ? hn::LoadU(D(), t + i)
-                     : hn::IfThenElse(hn::FirstN(D(), left), hn::MaskedLoad(hn::FirstN(D(), left), D(), t + i), origin);
-    // Rounded to a whole number by the addition: any monotone index serves.
-    const V rounded = hn::Add(hn::Mul(hn::Sub(at, origin), per_unit), magic);
-    const auto bucket = hn::Sub(hn::BitCast(I(), rounded), hn::BitCast(I(), magic));
-    auto s = hn::GatherIndex(I(), axis.first.data(), bucket);
-    for (int step = 0; step < axis.steps; ++step) {
-      const V next = hn::GatherIndex(D(), begins + 1, s);
-      s = hn::Sub(s, hn::BitCast(I(), hn::VecFromMask(D(), hn::Ge(at, next))));  // a true mask is −1
-    }
-    hn::StoreU(s, I(), span + i);
-    const V centre = hn::GatherIndex(D(), axis.centre.data(), s), scale = hn::GatherIndex(D(), axis.scale.data(), s);
-    hn::StoreU(hn::Mul(hn::Sub(at, centre), scale), D(), x + i);
+// Steps: a constant, or −1: axis.steps.
+template <int Steps>
+void locate_with(const Axis& axis, bool from_left, const double* t, std::size_t count, std::int64_t* span, double* x) {
+  const double *begins = axis.begins(from_left), *centre = axis.centre.data(), *scale = axis.scale.data();
+  const std::int64_t* first = axis.first.data();
+  const double origin = axis.begin, per_unit = axis.per_unit;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::int64_t s = first[static_cast<std::int64_t>((t[i] - origin) * per_unit)];
+    for (int step = 0; step < (Steps >= 0 ? Steps : axis.steps); ++step) s += t[i] >= begins[s + 1];
+    span[i] = s;
+    x[i] = (t[i] - centre[s]) * scale[s];
   }
+}
+// REQUIRES parameters in the domain, count ≤ kTile. One at a time: a few dependent loads from small tables each, which
+// processors overlap well; their gather instructions are slower where they are microcode.
+inline void locate(const Axis& axis, bool from_left, const double* t, std::size_t count, std::int64_t* span, double* x) {
+  switch (axis.steps) {
+    case 0: return locate_with<0>(axis, from_left, t, count, span, x);
+    case 1: return locate_with<1>(axis, from_left, t, count, span, x);
+    default: return locate_with<-1>(axis, from_left, t, count, span, x);
+  }
+}
+
+// Do runs of one piece cover most of a tile?
+PATCHPROOF_INLINE bool mostly_runs(const std::int64_t* piece, std::size_t count) {
+  std::int64_t equal = 0;
+  for (std::size_t i = 1; i < count; ++i) equal += piece[i] == piece[i - 1];
+  return 2 * static_cast<std::size_t>(equal) >= count;
 }
 
 // The length of the run of equal numbers that begins at `first`.

@@ -24,7 +24,7 @@ struct Axis {
   // Span s begins at right[s] for the limits from the right, at left[s] (the next double) for those from the left;
   // [count] is +infinity. The first is the domain's begin.
   std::vector<double> right, left;
-  // Buckets of equal length: parameters with index(t) = round((t − begin) · per_unit) = b lie in span first[b] or one of
+  // Buckets of equal length: parameters with index(t) = floor((t − begin) · per_unit) = b lie in span first[b] or one of
   // the next `steps`.
   std::vector<std::int64_t> first;
   double per_unit = 0;

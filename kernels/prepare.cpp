@@ -48,7 +48,7 @@ std::optional<Error> wrong_count(const char* name, std::size_t have, std::size_t
 
 // index(t) as locate.h computes it.
 std::int64_t bucket_of(const Axis& a, double t) {
-  return static_cast<std::int64_t>((t - a.begin) * a.per_unit + 0x1p52) - (std::int64_t{1} << 52);
+  return static_cast<std::int64_t>((t - a.begin) * a.per_unit);
 }
 
 void make_buckets(Axis& a) {

@@ -57,12 +57,55 @@ PATCHPROOF_INLINE V local_lanes(const double* t, std::size_t from, std::size_t c
 
 PATCHPROOF_INLINE auto vanishes(V weight) { return hn::Not(hn::Ge(hn::Abs(weight), hn::Set(D(), kSmallestWeight))); }
 
+// Takes the parameters tile by tile: run(span_u, span_v, u, v, count, at) for those in one piece, scattered(span_u, span_v,
+// x, y, count, at) for the others; both say whether all denominators were good.
+template <class Run, class Scattered>
+Progress for_tiles(const SurfacePieces& s, const SurfaceCall& call, const double* u, const double* v, std::size_t count,
+                   const Run& run, const Scattered& scattered) {
+  const bool one_piece = s.u.count == 1 && s.v.count == 1;
+  std::int64_t span_u[kTile], span_v[kTile], piece[kTile];
+  HWY_ALIGN double x[kTile];
+  HWY_ALIGN double y[kTile];
+  for (std::size_t at = 0; at < count; at += kTile) {
+    const std::size_t n = count - at < kTile ? count - at : kTile;
+    const std::size_t inside = count_inside(s.v, v + at, count_inside(s.u, u + at, n));
+    if (inside < n) return {at + inside, Stop::outside_domain, 0};
+    bool good = true;
+    if (one_piece) {
+      good = run(0, 0, u + at, v + at, n, at);
+    } else {
+      locate(s.u, call.left_u, u + at, n, span_u, x);
+      locate(s.v, call.left_v, v + at, n, span_v, y);
+      for (std::size_t i = 0; i < n; ++i) piece[i] = span_u[i] * s.v.count + span_v[i];
+      const bool runs = mostly_runs(piece, n);
+      std::size_t pending = 0;  // scattered parameters before `i` that are not yet done
+      const auto flush = [&](std::size_t end) {
+        if (pending < end)
+          good = scattered(span_u + pending, span_v + pending, x + pending, y + pending, end - pending, at + pending) &&
+                 good;
+      };
+      for (std::size_t i = 0; runs && i < n;) {
+        const std::size_t length = run_length(piece, i, n);
+        if (length >= 2 * static_cast<std::size_t>(kLanes)) {
+          flush(i);
+          good = run(span_u[i], span_v[i], u + at + i, v + at + i, length, at + i) && good;
+          pending = i + length;
+        }
+        i += length;
+      }
+      flush(n);
+    }
+    if (!good) return {at, Stop::vanishing_weight, 0};
+  }
+  return {count, Stop::none, 0};
+}
+
 // Degrees: constants, or −1: any.
 template <int Order, bool Rational, int DegreeU, int DegreeV>
 struct SurfaceKernel {
   static constexpr bool kFixed = DegreeU >= 0;
   static constexpr int kNumbers = Rational ? 4 : 3;
-  static constexpr int kGroups = Order == 0 && kLanes > 1 ? 2 : 1;
+  static constexpr int kGroups = 1;
 
   // Parameters in one piece. False where the denominator vanishes.
   static HWY_NOINLINE bool run(const SurfacePieces& s, std::int64_t span_u, std::int64_t span_v, const double* u,
@@ -198,47 +241,15 @@ struct SurfaceKernel {
 
   static Progress all(const SurfacePieces& s, const SurfaceCall& call, const double* u, const double* v,
                       std::size_t count) {
-    const bool one_piece = s.u.count == 1 && s.v.count == 1;
-    const SurfaceSinks out(s, call.out, count, one_piece);
-    Progress progress;
-    std::int64_t span_u[kTile], span_v[kTile], piece[kTile];
-    HWY_ALIGN double x[kTile];
-    HWY_ALIGN double y[kTile];
-    for (std::size_t at = 0; at < count; at += kTile) {
-      const std::size_t n = count - at < kTile ? count - at : kTile;
-      std::size_t inside = count_inside(s.u, u + at, n);
-      inside = count_inside(s.v, v + at, inside);
-      if (inside < n) return {at + inside, Stop::outside_domain, progress.undefined_normals};
-      bool good = true;
-      if (one_piece) {
-        good = run(s, 0, 0, u + at, v + at, n, at, out, progress.undefined_normals);
-      } else {
-        locate(s.u, call.left_u, u + at, n, span_u, x);
-        locate(s.v, call.left_v, v + at, n, span_v, y);
-        for (std::size_t i = 0; i < n; ++i) piece[i] = span_u[i] * s.v.count + span_v[i];
-        std::size_t pending = 0;  // scattered parameters before `i` that are not yet done
-        const auto flush = [&](std::size_t end) {
-          if (pending < end)
-            good = scattered(s, span_u + pending, span_v + pending, x + pending, y + pending, end - pending,
-                             at + pending, out, progress.undefined_normals) &&
-                   good;
-        };
-        for (std::size_t i = 0; i < n;) {
-          const std::size_t length = run_length(piece, i, n);
-          if (length >= 2 * static_cast<std::size_t>(kLanes)) {
-            flush(i);
-            good =
-                run(s, span_u[i], span_v[i], u + at + i, v + at + i, length, at + i, out, progress.undefined_normals) &&
-                good;
-            pending = i + length;
-          }
-          i += length;
-        }
-        flush(n);
-      }
-      if (!good) return {at, Stop::vanishing_weight, progress.undefined_normals};
-    }
-    progress.good = count;
+    const SurfaceSinks out(s, call.out, count, s.u.count == 1 && s.v.count == 1);
+    std::size_t undefined = 0;
+    Progress progress = for_tiles(
+        s, call, u, v, count,
+        [&](std::int64_t span_u, std::int64_t span_v, const double* us, const double* vs, std::size_t n,
+            std::size_t at) { return run(s, span_u, span_v, us, vs, n, at, out, undefined); },
+        [&](const std::int64_t* span_u, const std::int64_t* span_v, const double* x, const double* y, std::size_t n,
+            std::size_t at) { return scattered(s, span_u, span_v, x, y, n, at, out, undefined); });
+    progress.undefined_normals = undefined;
     return progress;
   }
 };

@@ -2,10 +2,11 @@
 // All kernels for the instruction set of the including file: its compiler flags choose highway's target.
 #pragma once
 
+#include "kernels/bounded_kernels.h"
 #include "kernels/grid_kernels.h"
 
 namespace patchproof::kernels::HWY_NAMESPACE {
 
-inline KernelTable table() { return {&surface, &grid, &curve, nullptr}; }
+inline KernelTable table() { return {&surface, &grid, &bounded, &curve, nullptr}; }
 
 }  // namespace patchproof::kernels::HWY_NAMESPACE

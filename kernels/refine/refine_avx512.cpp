@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/refine/banded_product.h"
+
+namespace patchproof::kernels::refine {
+constinit const Table kAvx512 = HWY_NAMESPACE::table();
+}
