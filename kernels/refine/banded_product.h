@@ -251,7 +251,7 @@ inline double largest(const double* x, std::size_t count) {
   for (; i + kLanes <= count; i += kLanes) most = hn::Max(most, hn::BitCast(whole, hn::Abs(hn::LoadU(d, x + i))));
   double parts[kLanes], out = 0;
   hn::StoreU(hn::BitCast(d, most), d, parts);
-  for (int k = 0; k < kLanes; ++k) out = parts[k] <= out ? out : parts[k];
+  for (int k = 0; k < kLanes; ++k) out = out != out || parts[k] <= out ? out : parts[k];
   for (; i < count; ++i) {
     const double size = x[i] < 0 ? -x[i] : x[i];
     out = out != out || size <= out ? out : size;

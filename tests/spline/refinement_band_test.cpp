@@ -4,7 +4,7 @@
 #include "patchproof/spline/bezier_extraction.h"
 #include "patchproof/spline/knot_insertion.h"
 #include "support/scalars.h"
-#include "support/wild_numbers.h"
+#include "support/strained_knots.h"
 
 namespace patchproof {
 namespace {
@@ -107,34 +107,6 @@ TEST(RefinementBand, Law3And4_ConvexAndMonotone) {
     }
 }
 
-// Doubles that strain: nearly equal knots, far offsets, scales up to 1e±150, subnormal distances.
-std::vector<std::vector<double>> strained_double_knots(int degree, WildNumbers& wild) {
-  std::vector<std::vector<double>> out;
-  const double scales[] = {1, 1e150, 1e-150, 0x1p-1060, 0x1p1020};
-  for (const double scale : scales)
-    for (const double offset : {0.0, 1.0e6})
-      for (int kind = 0; kind < 3; ++kind) {
-        std::vector<double> knots;
-        double t = offset * scale;
-        const int count = 2 * degree + 2 + wild.below(8);
-        for (int i = 0; i < count; ++i) {
-          knots.push_back(t);
-          const int choice = wild.below(kind == 0 ? 3 : 4);
-          if (kind == 1 && choice == 0) t = std::nextafter(t, kInfinity);                     // one ulp further
-          if (kind == 2 && choice == 0) t += scale * std::ldexp(1.0, -wild.below(1000) - 1);  // any fraction
-          if (choice >= 2) t += scale * std::ldexp(1 + wild.below(1 << 20) * 0x1p-20, -wild.below(12));
-        }
-        if (knots[degree] == knots[count - degree - 1]) continue;
-        out.push_back(knots);
-      }
-  return out;
-}
-
-Rational gamma(long roundings) {
-  const Rational u = power_of_two(-53);
-  return Rational(roundings) * u / (1 - Rational(roundings) * u);
-}
-
 // Coefficients of `rounded` against the exact ones of the same knots; returns the worst error over bound.
 double worst_against(const RefinementBand<double>& rounded, const RefinementBand<Tracked>& tracked,
                      const RefinementBand<Rational>& exact) {
@@ -172,24 +144,14 @@ TEST(RefinementBand, Law5_DoublesStayWithinTheBound) {
       for (const auto& knots : strained_double_knots(degree, wild)) {
         const auto old = KnotVector<double>::make(degree, knots).value();
         std::vector<double> all = knots;
-        for (int more = 0; more < 10; ++more) {
-          const int span = degree + wild.below(old.control_count() - degree);
-          const double a = old[span], b = old[span + 1];
-          double t = a + (b - a) * (wild.below(1024) / 1024.0);
-          if (wild.below(3) == 0) t = std::min(b, std::nextafter(a, kInfinity));
-          if (a <= t && t <= b) all.insert(all.end(), 1 + wild.below(2), t);
-        }
+        const auto added = strained_insertion(old, 14, wild);
+        all.insert(all.end(), added.begin(), added.end());
         std::sort(all.begin(), all.end());
         const auto finer = KnotVector<double>::make(degree, all).value();
-        const auto exactly = [](const KnotVector<double>& k) {
-          std::vector<Rational> out;
-          for (const double x : k.knots()) out.push_back(from_double(x));
-          return KnotVector<Rational>::make(k.degree(), out).value();
-        };
         worst = std::max(worst, worst_against(refinement_band<double>(old, finer), refinement_band<Tracked>(old, finer),
-                                              refinement_band<Rational>(exactly(old), exactly(finer))));
+                                              refinement_band<Rational>(exact_knots(old), exact_knots(finer))));
         worst = std::max(worst, worst_against(bezier_band<double>(old), bezier_band<Tracked>(old),
-                                              bezier_band<Rational>(exactly(old))));
+                                              bezier_band<Rational>(exact_knots(old))));
       }
   RecordProperty("worst_error_over_bound", std::to_string(worst));
   EXPECT_GT(worst, 1.0 / 50) << "the bound is far from what happens";
