@@ -19,6 +19,7 @@
 #include "patchproof/join/continuity.h"
 #include "patchproof/join/fixed_g1.h"
 #include "patchproof/join/pieces.h"
+#include "validation/bench/register.h"
 
 namespace {
 
@@ -138,6 +139,8 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(("g1_decision/rational" + kind).c_str(), g1_decision<Rational>, rational);
     benchmark::RegisterBenchmark(("certify_join" + kind).c_str(), certify_one, rational);
   }
+  patchproof::bench::register_roofline_benchmarks();
+  patchproof::bench::register_kernel_benchmarks();
   std::vector<std::string> models{source + "/examples/cup.json"};
   benchmark::Initialize(&argc, argv);
   for (int i = 1; i < argc; ++i) {

@@ -40,15 +40,6 @@ int smoothness(int degree, std::span<const double> knots, double t) {
   return range.first == range.second ? degree + 1 : degree - static_cast<int>(range.second - range.first);
 }
 
-void add(Score& score, const Placed& placed, std::ptrdiff_t item, int vector, const ExactVector& exact) {
-  const Rational largest = validation::largest_coordinate(exact);
-  if (largest == Rational(0) || validation::overflows(largest)) return;
-  ++score.vectors;
-  for (int c = 0; c < 3; ++c)
-    score.worst = std::max(score.worst,
-                           validation::in_ulps(validation::deviation(placed.at(item, vector, c), exact[c]), largest));
-}
-
 // The vectors that a quantity adds: {index in the record, index in SurfaceTruth::vectors, orders of u and v}.
 struct Added {
   int record, truth, order_u, order_v;
@@ -71,7 +62,7 @@ void add_surface_item(Score& score, Quantities q, const KnownSurface& s, const P
   for (const Added& a : added(q)) {
     if (a.order_u > smooth_u || a.order_v > smooth_v) continue;
     if (a.truth < 0 && !truth.has_normal) continue;
-    add(score, placed, item, a.record, a.truth < 0 ? truth.normal : truth.vectors[a.truth]);
+    add_vector(score, placed, item, a.record, a.truth < 0 ? truth.normal : truth.vectors[a.truth]);
   }
 }
 
@@ -120,7 +111,7 @@ CaseScores score_curve(const Peer& peer, int variant, const KnownCurve& c) {
     ++out.by_quantity[q].offered;
     for (std::size_t i = 0; i < c.values.size(); ++i)
       if (vectors - 1 <= smoothness(c.data.degree, c.data.knots, c.data.t[i]))
-        add(out.by_quantity[q], *placed, i, vectors - 1, c.values[i][vectors - 1]);
+        add_vector(out.by_quantity[q], *placed, i, vectors - 1, c.values[i][vectors - 1]);
   }
   return out;
 }
@@ -184,6 +175,21 @@ const char* to_string(Quantities q) {
     case Quantities::second: return "second";
   }
   return "";
+}
+
+void add_vector(Score& score, const Placed& placed, std::ptrdiff_t item, int vector, const ExactVector& exact) {
+  const Rational largest = validation::largest_coordinate(exact);
+  if (largest == Rational(0) || validation::overflows(largest)) return;
+  ++score.vectors;
+  for (int c = 0; c < 3; ++c)
+    score.worst = std::max(score.worst,
+                           validation::in_ulps(validation::deviation(placed.at(item, vector, c), exact[c]), largest));
+}
+
+void add_vectors(Score& score, Quantities q, const Placed& placed, std::ptrdiff_t item, const SurfaceTruth& exact) {
+  for (const Added& a : added(q))
+    if (a.truth >= 0 || exact.has_normal)
+      add_vector(score, placed, item, a.record, a.truth < 0 ? exact.normal : exact.vectors[a.truth]);
 }
 
 CaseScores operator+(const CaseScores& a, const CaseScores& b) {

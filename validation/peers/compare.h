@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,13 @@ struct Score {
   double worst = 0;  // in ulp; infinite for NaN and infinities
   int offered = 0;   // cases that the peer evaluated
 };
+// Compares one vector of an item with its exact value, as said above.
+void add_vector(Score& score, const Placed& placed, std::ptrdiff_t item, int vector,
+                const validation::ExactVector& exact);
+// The vectors that `q` adds to those of lower order; their places are those of a record for `q`.
+void add_vectors(Score& score, Quantities q, const Placed& placed, std::ptrdiff_t item,
+                 const validation::SurfaceTruth& exact);
+
 struct CaseScores {
   std::array<Score, 4> by_quantity;  // indexed as kAllQuantities; each counts only the vectors that it adds
   int refused = 0;                   // cases that the peer would not prepare

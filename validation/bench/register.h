@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What bench.cpp's main registers besides its own benchmarks.
+#pragma once
+
+namespace patchproof::bench {
+
+// Our kernels and the peers: WORKLOAD/ARRANGEMENT/QUANTITY|PEER/VARIANT. PATCHPROOF_PLUGINS names more peers (peer.h),
+// separated by colons.
+void register_kernel_benchmarks();
+// The limits of the machine: roofline/WHAT|SET.
+void register_roofline_benchmarks();
+
+}  // namespace patchproof::bench
