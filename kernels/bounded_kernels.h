@@ -53,10 +53,9 @@ PATCHPROOF_INLINE void put_bounded(const BoundedSinks& out, const Lanes (&point)
 }
 
 // See error_bounds.h. +infinity where the denominator may be zero.
-PATCHPROOF_INLINE V rational_bound(const PieceBounds& bounds, const Lanes (&point)[3], V weight) {
+PATCHPROOF_INLINE V rational_bound(V numerator_error, V weight_error, const Lanes (&point)[3], V weight) {
   const V size = hn::Max(hn::Abs(point[0].v), hn::Max(hn::Abs(point[1].v), hn::Abs(point[2].v)));
-  const V weight_error = hn::Set(D(), bounds.weight_error), smallest = hn::Sub(hn::Abs(weight), weight_error);
-  const V numerator = hn::MulAdd(size, weight_error, hn::Set(D(), bounds.numerator_error));
+  const V smallest = hn::Sub(hn::Abs(weight), weight_error), numerator = hn::MulAdd(size, weight_error, numerator_error);
   const V bound = hn::MulAdd(size, hn::Set(D(), 3 * kUnitRoundoff), hn::Div(numerator, smallest));
   const V safe = hn::MulAdd(bound, hn::Set(D(), kBoundSlack), hn::Set(D(), kUnderflow));
   return hn::IfThenElse(hn::Gt(smallest, hn::Zero(D())), safe, hn::Inf(D()));
@@ -77,6 +76,7 @@ struct BoundedKernel {
     const PieceBounds& bounds = s.bounds[static_cast<std::size_t>(span_u * s.v.count + span_v)];
     const V centre_u = hn::Set(D(), s.u.centre[span_u]), scale_u = hn::Set(D(), s.u.scale[span_u]);
     const V centre_v = hn::Set(D(), s.v.centre[span_v]), scale_v = hn::Set(D(), s.v.scale[span_v]);
+    const V numerator_error = hn::Set(D(), bounds.numerator_error), weight_error = hn::Set(D(), bounds.weight_error);
     auto vanishing = hn::FirstN(D(), 0);
     for (std::size_t i = 0; i < count; i += kLanes) {
       Group<1> x, y, size_x, size_y;
@@ -106,7 +106,7 @@ struct BoundedKernel {
         jet = quotient<0>(jet);
         const auto& c = jet.d[0].c[0];
         const Lanes point[3] = {c[0], c[1], c[2]};
-        put_bounded(out, point, rational_bound(bounds, point, weight), at + i, count - i);
+        put_bounded(out, point, rational_bound(numerator_error, weight_error, point, weight), at + i, count - i);
       } else {
         put_bounded(out, jet.d[0].c[0], bound_rows.d[0].c[0][0].v, at + i, count - i);
       }
@@ -121,7 +121,8 @@ struct BoundedKernel {
     const int p = kFixed ? DegreeU : s.u.degree, q = kFixed ? DegreeV : s.v.degree;
     const std::size_t row_length = kFixed ? 8 * (DegreeU + 1) : s.row;
     bool good = true;
-    HWY_ALIGN double number[4][kTile];  // x, y, z and bound
+    HWY_ALIGN double number[4][kTile];                   // x, y, z, and the bound or the weight
+    HWY_ALIGN double of_numerator[kTile], of_weight[kTile];  // errors
     for (std::size_t i = 0; i < count; ++i) {
       const double* coefficients = s.coefficients(span_u[i], span_v[i]);
       const Parameter local_x{x[i]}, local_y{y[i]};
@@ -145,6 +146,9 @@ struct BoundedKernel {
         jet.d[0] = rows.value.d[0];
         rows.value.d[0].store(numbers);
         number[3][i] = numbers[3];
+        const PieceBounds& bounds = s.bounds[static_cast<std::size_t>(span_u[i] * s.v.count + span_v[i])];
+        of_numerator[i] = bounds.numerator_error;
+        of_weight[i] = bounds.weight_error;
         if (!s.safe_weights) good = good && (numbers[3] >= kSmallestWeight || numbers[3] <= -kSmallestWeight);
         quotient<0>(jet).d[0].store(numbers);
       } else {
@@ -153,16 +157,13 @@ struct BoundedKernel {
       }
       for (int k = 0; k < 3; ++k) number[k][i] = numbers[k];
     }
-    if constexpr (Rational)
-      for (std::size_t i = 0; i < count; ++i) {
-        const PieceBounds& bounds = s.bounds[static_cast<std::size_t>(span_u[i] * s.v.count + span_v[i])];
-        const Lanes point[3] = {Lanes(number[0][i]), Lanes(number[1][i]), Lanes(number[2][i])};
-        number[3][i] = hn::GetLane(rational_bound(bounds, point, hn::Set(D(), number[3][i])));
-      }
     for (std::size_t i = 0; i < count; i += kLanes) {
       const Lanes point[3] = {hn::LoadU(D(), number[0] + i), hn::LoadU(D(), number[1] + i),
                               hn::LoadU(D(), number[2] + i)};
-      put_bounded(out, point, hn::LoadU(D(), number[3] + i), at + i, count - i);
+      V bound = hn::LoadU(D(), number[3] + i);
+      if constexpr (Rational)
+        bound = rational_bound(hn::LoadU(D(), of_numerator + i), hn::LoadU(D(), of_weight + i), point, bound);
+      put_bounded(out, point, bound, at + i, count - i);
     }
     return good;
   }

@@ -12,6 +12,8 @@
 // The same counting, for derivatives and quotients, is done by running the bodies of horner.h on Magnitude: the size of a
 // number and of its error. Where w has a zero in a piece, the a-priori bound is +infinity and the pointwise one speaks:
 //     |S − exact| ≤ (E_A + |S| E_w) / (|w| − E_w) + 3u |S|,    E_A, E_w: the bounds of numerator and denominator.
+// (With S̃ = A/w of the computed A, w the exact value is S̃ + (a − S̃ e)/(w + e) for some |a| ≤ E_A, |e| ≤ E_w; the reciprocal
+// and the product round S̃ twice.)
 // Underflow: every operation may lose 2⁻¹⁰⁷⁴; kUnderflow covers all operations of a kernel.
 // TEST     tests/patch/evaluate_batch_test.cpp holds computed results against them, tests/kernels/error_bounds_test.cpp
 //          the counting against Tracked.
@@ -94,11 +96,19 @@ inline Magnitude reciprocal(const WeightMagnitude& w) {
   return detail::bounded(1 / computed, w.value.error / (w.smallest * computed) + kUnitRoundoff / computed);
 }
 
-// The bound of one point from that of its numerator and denominator, as evaluate_bounded computes it: see above.
-template <class T>
-PATCHPROOF_INLINE T quotient_error(const T& numerator_error, const T& weight_error, const T& size_of_point,
-                                   const T& size_of_weight, const T& slack) {
-  return slack * ((numerator_error + size_of_point * weight_error) / (size_of_weight - weight_error));
+// Compensated evaluation (compensated_kernels.h) keeps a number R of Horner's rule as r + E, r computed, E the exact
+// correction, of which e is computed. With the parameter x + x′ (|x′| ≤ u|x| ≤ u) and the coefficient c + c′ + c″, where
+// |c′| ≤ u|c| is known and |c″| is not, a step is exactly
+//     R x + c:   r ← fl(fl(r x) + c),   E ← E x + E x′ + r x′ + π + σ + c′ + c″,   |π| ≤ u|r x|, |σ| ≤ u|fl(r x) + c|
+// and e ← e x + (r x′ + ((π + σ) + c′)) in double leaves out E x′ and c″. Let M = Σ|c_ij|, n = p + q + 2 the number of
+// steps from an innermost coefficient to the end (rows count as coefficients with c′ = e). Up to factors 1 + 2⁻⁴⁰:
+// |r| ≤ M; each step adds at most r x′ + π + σ + c′ ≤ 4uM to E, so |E| ≤ 4nuM; each step adds to |e − E| at most
+// u|E| for what is left out and, for five roundings of sums no larger than |E| + 4uM, 5u(|E| + 4uM): together
+//     |e − E| ≤ n (u·4nuM + 5u(4n + 4)uM) + Σ|c″| ≤ (24n² + 20n) u² M + Σ|c″|.
+inline double compensated_error(int steps, double sum_of_moduli, double unknown) {
+  if (sum_of_moduli == 0) return unknown;  // a coordinate that is 0 everywhere is exactly 0
+  const double n = steps;
+  return kUnderflow + ((24 * n * n + 20 * n) * kUnitRoundoff * kUnitRoundoff * sum_of_moduli + unknown) * kBoundSlack;
 }
 
 }  // namespace patchproof::kernels

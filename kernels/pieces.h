@@ -39,8 +39,8 @@ struct PieceBounds {
   double error[6]{};
   // Of the homogeneous point (rational surfaces only).
   double numerator_error = 0, weight_error = 0;
-  // |high + low − c| summed over the coefficients.
-  double coefficient_error = 0;
+  // Of the compensated kernels' homogeneous coordinates x, y, z, w, before the last rounding.
+  double compensated[4]{};
 };
 
 // Numbers at a multiple of 64 bytes.

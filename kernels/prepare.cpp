@@ -210,6 +210,7 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
       const std::size_t number = static_cast<std::size_t>(a) * s.v.count + b;
       double *high = s.high.data() + number * s.piece, *low = s.low.data() + number * s.piece;
       PieceBounds& bounds = s.bounds[number];
+      double sum_of_moduli[4]{}, sum_of_errors[4]{};
       std::fill(errors.begin(), errors.end(), 0.0);
       for (int i = 0; i < order_u; ++i)
         for (int j = 0; j < order_v; ++j) {
@@ -226,14 +227,16 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
             errors[at + k] = std::fabs(sum.low()) + sum.error();
             largest = std::max(largest, std::fabs(sum.high()));
             largest_error = std::max(largest_error, sum.error());
+            sum_of_moduli[k] += std::fabs(sum.high());
+            sum_of_errors[k] += sum.error();
           }
-          bounds.coefficient_error += largest_error;
           // The fourth number of a piece without weights: the term of its pointwise bound.
           if (!s.rational) high[at + 3] = (gamma(3 * (i + j) + 3) * largest + largest_error) * kBoundSlack + kUnderflow;
           if (i == 1 && j == 0) largest_du = std::max(largest_du, largest * s.u.scale[a]);
           if (i == 0 && j == 1) largest_dv = std::max(largest_dv, largest * s.v.scale[b]);
         }
-      bounds.coefficient_error *= kBoundSlack;
+      for (int k = 0; k < numbers; ++k)
+        bounds.compensated[k] = compensated_error(p + q + 2, sum_of_moduli[k], sum_of_errors[k]);
 
       double smallest_weight = kInfinity;
       for (int i = 0; i < order_u; ++i)

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "kernels/bounded_kernels.h"
+#include "kernels/compensated_kernels.h"
 #include "kernels/grid_kernels.h"
 
 namespace patchproof::kernels::HWY_NAMESPACE {
 
-inline KernelTable table() { return {&surface, &grid, &bounded, &curve, nullptr}; }
+inline KernelTable table() { return {&surface, &grid, &bounded, &curve, &compensated}; }
 
 }  // namespace patchproof::kernels::HWY_NAMESPACE

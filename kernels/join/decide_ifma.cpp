@@ -17,7 +17,10 @@ class Residues47 {
     __m512i low, high;
   };
 
-  explicit Residues47(int q) {
+  static constexpr int kPrimes = 10;
+
+  // Prime q; whole numbers are high · 2^split + low.
+  Residues47(int q, int split) {
     const unsigned long long p = (1ULL << 47) - patchproof::kernels::kBelow47[q], mask = (1ULL << 52) - 1;
     unsigned long long inverse = p;  // modulo 2^3: p² = 1; each step doubles the bits
     for (int i = 0; i < 5; ++i) inverse *= 2 - p * inverse;
@@ -26,6 +29,7 @@ class Residues47 {
     inverse_ = Lanes::constant_bits(inverse & mask);
     minus_inverse_ = Lanes::constant_bits((0 - inverse) & mask);
     one_ = Lanes::constant_bits(1);
+    power_ = Lanes::constant_bits((1ULL << split) % p);
     const double modulus = static_cast<double>(p);
     modulus_ = Lanes::constant(modulus);
     reciprocal_ = Lanes::constant(1 / modulus);
@@ -43,6 +47,10 @@ class Residues47 {
     return _mm512_castpd_si512(Lanes::fma(remainder, Lanes::constant(factor), offset_));
   }
   Number one() const { return one_; }
+  // factor · (high · 2^split + low) / R, of the remainders of high and low.
+  Number joined(D high, D low, double factor) const {
+    return close(add_product(add_product(zero(), number(high, factor), power_), number(low, factor), one_));
+  }
 
   static Sum zero() { return {_mm512_setzero_si512(), _mm512_setzero_si512()}; }
   static Sum add_product(Sum sum, Number x, Number y) {
@@ -63,7 +71,7 @@ class Residues47 {
   }
 
  private:
-  Number p_, twice_p_, inverse_, minus_inverse_, one_;
+  Number p_, twice_p_, inverse_, minus_inverse_, one_, power_;
   D modulus_, reciprocal_, offset_;
 };
 

@@ -30,24 +30,28 @@ struct Lanes {
   static unsigned greater(D x, D y) { return mask(_mm256_cmp_pd(x, y, _CMP_GT_OQ)); }
   static void store(double* to, D x) { _mm256_storeu_pd(to, x); }
 
-  // scale: the power of two with 2^52 ≤ top · scale < 2^53. Anything when top is not in range.
-  static void scale_to_whole(D top, D& scale, D& inverse) {
+  // up: the power of two with 2^52 ≤ top · up < 2^53, down: 1 / up. Anything when top is not in range.
+  static void scale_to_whole(D top, D& up, D& down) {
     const I exponent = _mm256_and_si256(_mm256_castpd_si256(top), _mm256_set1_epi64x(0x7ff0000000000000));
-    scale = _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x((2 * 1023LL + 52) << 52), exponent));
-    inverse = _mm256_castsi256_pd(_mm256_sub_epi64(exponent, _mm256_set1_epi64x(52LL << 52)));
+    up = _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x((2 * 1023LL + 52) << 52), exponent));
+    down = _mm256_castsi256_pd(_mm256_sub_epi64(exponent, _mm256_set1_epi64x(52LL << 52)));
   }
 
-  // The lowest 27 bits: what rounding to a multiple of 2^27 takes off, written into the mantissa of 3 · 2^51.
+  // Whole numbers up to 2^51 in size stand in the mantissa of 3 · 2^51 + x. Of longer ones the lowest 27 bits are enough:
+  // what rounding to a multiple of 2^27 takes off.
   static I no_bits() { return _mm256_setzero_si256(); }
+  static I collect_small_bits(I bits, D whole) {
+    return _mm256_or_si256(bits, _mm256_castpd_si256(add(whole, constant(0x3p51))));
+  }
   static I collect_bits(I bits, D whole) {
     const D high = round(multiply(whole, constant(0x1p-27)));
-    const D low = fnma(high, constant(0x1p27), whole);
-    return _mm256_or_si256(bits, _mm256_castpd_si256(add(low, constant(0x3p51))));
+    return collect_small_bits(bits, fnma(high, constant(0x1p27), whole));
   }
-  static int trailing_zeros(I bits) {
-    long long all[4];
+  static constexpr int kZerosSeen = 27;
+  static int trailing_zeros(I bits, int most) {
+    unsigned long long all[4];
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(all), bits);
-    return __builtin_ctzll(static_cast<unsigned long long>(all[0] | all[1] | all[2] | all[3]) | 1ULL << 27);
+    return __builtin_ctzll(all[0] | all[1] | all[2] | all[3] | 1ULL << most);
   }
 
   // to[i] = entry i of each join, by 4 × 4 transposed.

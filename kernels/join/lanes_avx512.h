@@ -26,18 +26,19 @@ struct Lanes {
   static unsigned greater(D x, D y) { return _mm512_cmp_pd_mask(x, y, _CMP_GT_OQ); }
   static void store(double* to, D x) { _mm512_storeu_pd(to, x); }
 
-  // scale: the power of two with 2^52 ≤ top · scale < 2^53. Anything when top is not in range.
-  static void scale_to_whole(D top, D& scale, D& inverse) {
+  // up: the power of two with 2^52 ≤ top · up < 2^53, down: 1 / up. Anything when top is not in range.
+  static void scale_to_whole(D top, D& up, D& down) {
     const I exponent = _mm512_and_si512(_mm512_castpd_si512(top), _mm512_set1_epi64(0x7ff0000000000000));
-    scale = _mm512_castsi512_pd(_mm512_sub_epi64(_mm512_set1_epi64((2 * 1023LL + 52) << 52), exponent));
-    inverse = _mm512_castsi512_pd(_mm512_sub_epi64(exponent, _mm512_set1_epi64(52LL << 52)));
+    up = _mm512_castsi512_pd(_mm512_sub_epi64(_mm512_set1_epi64((2 * 1023LL + 52) << 52), exponent));
+    down = _mm512_castsi512_pd(_mm512_sub_epi64(exponent, _mm512_set1_epi64(52LL << 52)));
   }
 
   static I no_bits() { return _mm512_setzero_si512(); }
   static I collect_bits(I bits, D whole) { return _mm512_or_si512(bits, _mm512_cvtpd_epi64(whole)); }
-  static int trailing_zeros(I bits) {
-    const auto all = static_cast<unsigned long long>(_mm512_reduce_or_epi64(bits));
-    return all == 0 ? 0 : __builtin_ctzll(all);
+  static I collect_small_bits(I bits, D whole) { return collect_bits(bits, whole); }
+  static constexpr int kZerosSeen = 53;
+  static int trailing_zeros(I bits, int most) {
+    return __builtin_ctzll(static_cast<unsigned long long>(_mm512_reduce_or_epi64(bits)) | 1ULL << most);
   }
 
   // to[i] = entry i of each join. Four entries at a time: rows of joins j and j + 4 side by side, then 4 × 4 transposed.

@@ -14,7 +14,10 @@ class Residues28 {
   using Number = typename L::I;
   using Sum = typename L::I;
 
-  explicit Residues28(int q) {
+  static constexpr int kPrimes = 16;
+
+  // Prime q; whole numbers are high · 2^split + low.
+  Residues28(int q, int split) {
     const unsigned p = (1u << 28) - patchproof::kernels::kBelow28[q];
     unsigned inverse = p;  // modulo 2^3: p² = 1; each step doubles the bits
     for (int i = 0; i < 4; ++i) inverse *= 2 - p * inverse;
@@ -23,6 +26,7 @@ class Residues28 {
     inverse_ = L::constant_bits(inverse);
     minus_inverse_ = L::constant_bits(0u - inverse);
     one_ = L::constant_bits(1);
+    power_ = L::constant_bits((1ULL << split) % p);
     modulus_ = L::constant(p);
     reciprocal_ = L::constant(1.0 / p);
     offset_ = L::constant(0x1p52 + 2.0 * p);
@@ -39,6 +43,10 @@ class Residues28 {
     return L::bits_of(L::fma(remainder, L::constant(factor), offset_));
   }
   Number one() const { return one_; }
+  // factor · (high · 2^split + low) / R, of the remainders of high and low.
+  Number joined(D high, D low, double factor) const {
+    return close(add_product(add_product(zero(), number(high, factor), power_), number(low, factor), one_));
+  }
 
   static Sum zero() { return L::no_bits(); }
   static Sum add_product(Sum sum, Number x, Number y) { return L::add_bits(sum, L::multiply_low(x, y)); }
@@ -53,7 +61,7 @@ class Residues28 {
   unsigned nonzero(Number x) const { return L::low_half_above(L::multiply_low(x, inverse_), 16); }
 
  private:
-  Number p_, twice_p_, inverse_, minus_inverse_, one_;
+  Number p_, twice_p_, inverse_, minus_inverse_, one_, power_;
   D modulus_, reciprocal_, offset_;
 };
 

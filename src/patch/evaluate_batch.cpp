@@ -2,10 +2,12 @@
 #include "patchproof/patch/evaluate_batch.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernels/batch_call.h"
 #include "kernels/kernel_table.h"
 #include "kernels/prepare.h"
+#include "patchproof/scalar/rational.h"
 
 namespace patchproof {
 namespace {
@@ -35,6 +37,95 @@ Error outside(const char* name, std::size_t i, double t) {
           "the parameter lies outside the domain", batch::text(t)};
 }
 
+// set(call, begin): where the results of a share go.
+template <class Set>
+Result<BatchSummary> bounded(const kernels::SurfacePieces& pieces, std::span<const double> u, std::span<const double> v,
+                             const SurfaceBatchOptions& options, const Set& set) {
+  PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
+  const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
+  const auto part = [&](std::size_t begin, std::size_t count) {
+    kernels::SurfaceCall call = call_of(options);
+    set(call, begin);
+    return table.bounded(pieces, call, u.data() + begin, v.data() + begin, count);
+  };
+  return batch::run(u.size(), batch::kShare, options.threads, part,
+                    [&](std::size_t i) { return describe_uv(u[i], v[i]); });
+}
+
+// The span of `knots` that the kernels take for t, as a curve's or patch's only span.
+KnotVector<Rational> only_span(const std::vector<double>& knots, const kernels::Axis& axis, double t, bool left) {
+  const double* begins = axis.begins(left);
+  const int span = static_cast<int>(std::upper_bound(begins + 1, begins + axis.count, t) - begins) - 1;
+  const int first = axis.knot_span[span] - axis.degree;
+  std::vector<Rational> out;
+  for (int i = 0; i < 2 * axis.degree + 2; ++i) out.push_back(from_double(knots[first + i]));
+  return KnotVector<Rational>::make_unchecked(axis.degree, std::move(out));
+}
+int first_control(const kernels::Axis& axis, double t, bool left) {
+  const double* begins = axis.begins(left);
+  return axis.knot_span[std::upper_bound(begins + 1, begins + axis.count, t) - begins - 1] - axis.degree;
+}
+
+// The doubles nearest to the exact point. False where the denominator is exactly zero.
+bool exact_point(const kernels::SurfacePieces& s, const kernels::SurfaceCall& call, double u, double v,
+                 const VectorArray& out) {
+  const int count_v = static_cast<int>(s.knots_v.size()) - s.v.degree - 1;
+  const int first_u = first_control(s.u, u, call.left_u), first_v = first_control(s.v, v, call.left_v);
+  std::vector<Vec<Rational, 4>> net;
+  for (int i = 0; i <= s.u.degree; ++i)
+    for (int j = 0; j <= s.v.degree; ++j) {
+      const std::size_t at = static_cast<std::size_t>(first_u + i) * count_v + first_v + j;
+      const Rational w = s.rational ? from_double(s.weights[at]) : Rational(1);
+      Vec<Rational, 4> point;
+      for (int k = 0; k < 3; ++k) point[k] = from_double(s.points[3 * at + k]) * w;
+      point[3] = w;
+      net.push_back(point);
+    }
+  const BsplinePatch<Rational, 4> local(only_span(s.knots_u, s.u, u, call.left_u),
+                                        only_span(s.knots_v, s.v, v, call.left_v), std::move(net));
+  const Vec<Rational, 4> a = evaluate(local, from_double(u), from_double(v));
+  if (a[3] == Rational(0)) return false;
+  *out.x = nearest_double(a[0] / a[3]);
+  *out.y = nearest_double(a[1] / a[3]);
+  *out.z = nearest_double(a[2] / a[3]);
+  return true;
+}
+
+// A point that the compensated kernel cannot round for certain is computed exactly: all such points of a correctly rounded
+// call; of a compensated one those that are no numbers.
+Result<BatchSummary> compensated(const kernels::SurfacePieces& pieces, std::span<const double> u,
+                                 std::span<const double> v, const VectorArray& point,
+                                 const SurfaceBatchOptions& options, bool correctly_rounded) {
+  PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
+  const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
+  const auto part = [&](std::size_t begin, std::size_t count) {
+    constexpr std::size_t kPart = 4096;
+    unsigned char undecided[kPart];
+    for (std::size_t at = 0; at < count; at += kPart) {
+      const std::size_t n = std::min(kPart, count - at);
+      kernels::SurfaceCall call = call_of(options);
+      call.out.point = point.from(static_cast<std::ptrdiff_t>(begin + at));
+      kernels::Progress progress =
+          table.compensated(pieces, call, u.data() + begin + at, v.data() + begin + at, n, undecided);
+      if (progress.stop != kernels::Stop::none) {
+        progress.good += at;
+        return progress;
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!undecided[i]) continue;
+        const VectorArray one = call.out.point.from(static_cast<std::ptrdiff_t>(i));
+        const bool number = std::isfinite(*one.x) && std::isfinite(*one.y) && std::isfinite(*one.z);
+        if (number && !correctly_rounded) continue;
+        if (!exact_point(pieces, call, u[begin + at + i], v[begin + at + i], one))
+          return kernels::Progress{at + i, kernels::Stop::vanishing_weight, 0};
+      }
+    }
+    return kernels::Progress{count, kernels::Stop::none, 0};
+  };
+  return batch::run(u.size(), batch::kShare, options.threads, part,
+                    [&](std::size_t i) { return describe_uv(u[i], v[i]); });
+}
+
 }  // namespace
 
 Result<BatchSurface> BatchSurface::make(const SurfaceData& data) {
@@ -51,7 +142,7 @@ bool BatchSurface::is_rational() const { return pieces_->rational; }
 
 Result<BatchSummary> BatchSurface::evaluate(std::span<const double> u, std::span<const double> v,
                                             const SurfaceOutput& out, const SurfaceBatchOptions& options) const {
-  PATCHPROOF_REQUIRES(u.size() == v.size(), "evaluate: as many u as v");
+  PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
   const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
   const auto part = [&](std::size_t begin, std::size_t count) {
     kernels::SurfaceCall call = call_of(options);
@@ -78,6 +169,37 @@ Result<BatchSummary> BatchSurface::evaluate_grid(std::span<const double> u, std:
   };
   return batch::run(u.size() * columns, share, options.threads, part,
                     [&](std::size_t i) { return describe_uv(u[i / columns], v[i % columns]); });
+}
+
+Result<BatchSummary> BatchSurface::evaluate_bounded(std::span<const double> u, std::span<const double> v,
+                                                    const VectorArray& point, double* bound,
+                                                    const SurfaceBatchOptions& options) const {
+  return bounded(*pieces_, u, v, options, [&](kernels::SurfaceCall& call, std::size_t begin) {
+    call.out.point = point.from(static_cast<std::ptrdiff_t>(begin));
+    call.bound = bound + begin;
+  });
+}
+
+Result<BatchSummary> BatchSurface::evaluate_interval(std::span<const double> u, std::span<const double> v,
+                                                     const VectorArray& lower, const VectorArray& upper,
+                                                     const SurfaceBatchOptions& options) const {
+  PATCHPROOF_REQUIRES(lower.wanted() == upper.wanted(), "evaluate_interval: both ends or none");
+  return bounded(*pieces_, u, v, options, [&](kernels::SurfaceCall& call, std::size_t begin) {
+    call.lower = lower.from(static_cast<std::ptrdiff_t>(begin));
+    call.upper = upper.from(static_cast<std::ptrdiff_t>(begin));
+  });
+}
+
+Result<BatchSummary> BatchSurface::evaluate_compensated(std::span<const double> u, std::span<const double> v,
+                                                        const VectorArray& point,
+                                                        const SurfaceBatchOptions& options) const {
+  return compensated(*pieces_, u, v, point, options, false);
+}
+
+Result<BatchSummary> BatchSurface::evaluate_correctly_rounded(std::span<const double> u, std::span<const double> v,
+                                                              const VectorArray& point,
+                                                              const SurfaceBatchOptions& options) const {
+  return compensated(*pieces_, u, v, point, options, true);
 }
 
 }  // namespace patchproof
