@@ -8,6 +8,7 @@
 // RANGES in units of p; kBits = 28, R = 2^32 is the narrower case: products of numbers below 16 p, sums below 240 p²
 // (240 p² + 16 p · p ≤ 2^64), close(v p²) < (v / 16 + 1) p.
 //   remainder r of a whole double: |r| < 0.51 p. number(r, m) = m r + 2 p:   m = ±1: 2.51   m = ±2: 3.02   m = ±3: 3.53
+//   joined(high, low, m) = close(number(high, m) · (2^split mod p) + number(low, m)): 3.53 p · p + 4 p       → 1.3
 //   polynomial  a × b: 8 products of 3.53 · 3.53 = 99.7         → 7.24;   det: 9 products of 7.24 · 3.02 = 196.8 → 13.3
 //   rational    w x: 2.51 · 3.53 = 8.9 → 1.56; alone, times 1: 1.01.   minus: 2 p − x, below 2; twice 4; thrice 6.
 //               E ∧ E_t: (1.56 + 2) 1.56 + (4.68 + 6) 1.56 = 22.3 → 2.4;   A ∧ B: 4 (1.56 + 2) 1.56 = 22.3 → 2.4
@@ -17,21 +18,23 @@
 // HOW MANY PRIMES  A join the filter did not refute has |det coefficient| ≤ 2 · its error bound, by the bound's meaning: far
 // less than any bound from the size of the numbers. If the whole numbers of a, b, c are multiples of 2^i, 2^j, 2^k, det is
 // a multiple of 2^(i+j+k). Let all |coefficients| / 2^(i+j+k) < 2^E. A product of n primes is above 2^(n kBits − 1); when
-// that is at least 2^E, zero modulo all of them is zero. At most, by 53-bit numbers:
-//   polynomial  2 · 23 u · 70 · 6 · 2^159 < 2^121;   rational  2 · 50 u · 152 · 12 · 2^(4 · 106) < 2^388.
+// that is at least 2^E, zero modulo all of them is zero. At most, with the terms of the permanents and the largest C:
+//   polynomial  2 · 23 u · 70 · 6 · 2^(3 · 53) < 2^121, long ones < 2^(121 + 3 · 50)
+//   rational    2 · 50 u · 152 · 24 · 2^(3 · 106 + 53) < 2^337, long ones < 2^(337 + 7 · 8);
+//               homogeneous 2 · 50 u · 152 · 24 · 2^(4 · 53) < 2^178, long ones < 2^(178 + 4 · 50)
+// 10 primes of 47 bits and 16 of 28 bits reach 2^447.
 #pragma once
 
-#include "join/decide_rational_forms.h"
 #include "kernels/join/decide_table.h"
+#include "kernels/join/whole_numbers.h"
 
 namespace patchproof::kernels::lanes {
-
-using namespace patchproof::decide;
 
 constexpr double kStage = 3.53, kCross = 8 * kStage * kStage / 16 + 1, kWeighted = 2.51 * kStage / 16 + 1;
 constexpr double kWedge = ((kWeighted + 2) + 3 * (kWeighted + 2)) * kWeighted, kPlucker = kWedge / 16 + 1;
 static_assert(8 * kStage * kStage < 240 && 9 * kCross * 3.02 < 240 && 9 * kCross * 3.02 / 16 + 1 < 16);
 static_assert(kWeighted < 2 && 4 * (kWeighted + 2) * kWeighted <= kWedge && kWedge < 240);
+static_assert(kStage + 1e-6 < 16 && (kStage + 1e-6) / 16 + 1 < kWeighted, "joined numbers are smaller than others");
 static_assert(30 * kPlucker * kPlucker < 240 && 30 * kPlucker * kPlucker / 16 + 1 < 16);
 
 template <class L>
@@ -49,92 +52,113 @@ int primes_for(int exponent) {
   return exponent <= 0 ? 0 : (exponent + 1 + M::kBits - 1) / M::kBits;
 }
 
-// Lanes where every entry is (a whole number) / scale. Collects the numbers' bits. REQUIRES they are in range.
-template <class L, int Size>
-unsigned are_whole(const typename L::D (&raw)[Size], const typename L::D (&scaled)[Size], typename L::D inverse) {
-  unsigned whole = L::kAll;
-#pragma GCC unroll 36
-  for (int i = 0; i < Size; ++i)  // a scaled entry that underflowed differs, scaled back
-    whole &= L::equal(L::multiply(L::round(scaled[i]), inverse), raw[i]);
-  return whole;
-}
-// How often 2 divides all numbers of all lanes, at most.
-template <class L, int Size>
-int common_zeros(const typename L::D (&whole)[Size]) {
-  typename L::I bits = L::no_bits();
-#pragma GCC unroll 36
-  for (int i = 0; i < Size; ++i) bits = L::collect_bits(bits, whole[i]);
-  return L::trailing_zeros(bits);
-}
-template <class L, int Size>
-void keep(typename L::D (&x)[Size], unsigned lanes) {
-  for (int i = 0; i < Size; ++i) x[i] = L::keep(x[i], lanes);
-}
-
-// a − e = d exactly? See is_middle.
-template <class L>
-unsigned is_difference(typename L::D d, typename L::D a, typename L::D e) {
-  return L::equal(L::add(d, e), a) & L::equal(L::subtract(a, d), e);
-}
-
 // ---- polynomial ----------------------------------------------------------------------------------------------------
 
-// Sufficient for decide_fixed_g1 to take the join, so that every instruction set answers alike: all coordinates are below
-// t = max |E| + max |a| + max |b|; entries of E are 0 or at least 2^-66 t, so whole multiples of 2^(-66-53) t; so are a and b
-// as multiples of 2^-53 of their largest, if that is at least 2^-66 t. That is 121 bits, of 123. REQUIRES they are in range.
+// The same numbers in one row.
+template <class D, int P>
+D (&flat(D (&x)[P][3]))
+[3 * P] {
+  return reinterpret_cast<D(&)[3 * P]>(x);
+}
+
+// Sufficient for decide_fixed_g1 to take the join, so that every instruction set answers alike: below t = max |E| + max |a| +
+// max |b| < 2^h, entries are 0 or at least 2^-70 t, so that they are multiples of 2^(h-71-52). Those are its 123 bits.
+// REQUIRES they are in range.
 template <class L>
 unsigned fits_fixed(const typename L::D (&x)[36], const Differences<L>& d) {
   using D = typename L::D;
-  const D a = L::multiply(L::max(L::max(d.a_max[0], d.a_max[1]), d.a_max[2]), d.inverse_a);
-  const D b = L::multiply(L::max(L::max(d.b_max[0], d.b_max[1]), d.b_max[2]), d.inverse_b);
-  D e = L::constant(0);
+  const D a = L::multiply(L::max(L::max(d.a_max[0], d.a_max[1]), d.a_max[2]), d.scale_a.down);
+  const D b = L::multiply(L::max(L::max(d.b_max[0], d.b_max[1]), d.b_max[2]), d.scale_b.down);
+  D edge = L::constant(0), least = L::constant(__builtin_inf());
 #pragma GCC unroll 12
-  for (int i = 0; i < 12; ++i) e = L::max(e, L::abs(x[i]));
-  const D least = L::multiply(L::add(e, L::add(a, b)), L::constant(0x1p-66));
-  unsigned fits = L::greater(a, least) & L::greater(b, least);
+  for (int i = 0; i < 12; ++i) edge = L::max(edge, L::abs(x[i]));
+#pragma GCC unroll 36
+  for (int i = 0; i < 36; ++i) least = L::least_size(least, x[i]);
+  return L::greater(least, L::multiply(L::add(edge, L::add(a, b)), L::constant(0x1p-70)));
+}
+
+// The differences as whole numbers.
+template <class L>
+struct WholeDifferences {
+  Whole<L, 12> a, b;
+  Whole<L, 9> c;
+  typename L::D error_a[12], error_b[12];  // of the rounded differences, when long
+  bool is_long = false;
+};
+
+template <class L>
+unsigned take_short(const typename L::D (&x)[36], const Differences<L>& d, unsigned wanted, WholeDifferences<L>& w) {
+  typename L::I seen = see_long<L>(L::no_bits(), flat(d.a), flat(d.scaled_a), d.scale_a);
+  seen = see_long<L>(seen, flat(d.b), flat(d.scaled_b), d.scale_b);
+  seen = see_long<L>(seen, flat(d.c), flat(d.scaled_c), d.scale_c);
 #pragma GCC unroll 12
-  for (int i = 0; i < 12; ++i) fits &= L::greater(L::abs(x[i]), least) | L::equal(x[i], L::constant(0));
-  return fits;
+  for (int i = 0; i < 12; ++i) {
+    seen = see_rounding<L>(seen, flat(d.a)[i], x[12 + i], x[i]);
+    seen = see_rounding<L>(seen, flat(d.b)[i], x[24 + i], x[i]);
+    if (i < 9) seen = see_rounding<L>(seen, flat(d.c)[i], x[i + 3], x[i]);
+  }
+  const unsigned lanes = wanted & L::without(seen);
+  take_short(flat(d.scaled_a), lanes, w.a);
+  take_short(flat(d.scaled_b), lanes, w.b);
+  take_short(flat(d.scaled_c), lanes, w.c);
+  return lanes;
 }
 
 template <class L>
-unsigned exact_polynomial(const typename L::D (&x)[36], const Differences<L>& d) {
-  using D = typename L::D;
-  unsigned exact = L::kAll;
-#pragma GCC unroll 4
-  for (int i = 0; i < 4; ++i)
-#pragma GCC unroll 3
-    for (int k = 0; k < 3; ++k) {
-      const int e = 3 * i + k;
-      exact &= is_difference<L>(d.a[i][k], x[12 + e], x[e]) & is_difference<L>(d.b[i][k], x[24 + e], x[e]);
-      if (i < 3) exact &= is_difference<L>(d.c[i][k], x[e + 3], x[e]);
-    }
-  using Four = const D(&)[12];
-  using Three = const D(&)[9];
-  return exact & are_whole<L>(reinterpret_cast<Four>(d.a), reinterpret_cast<Four>(d.scaled_a), d.inverse_a) &
-         are_whole<L>(reinterpret_cast<Four>(d.b), reinterpret_cast<Four>(d.scaled_b), d.inverse_b) &
-         are_whole<L>(reinterpret_cast<Three>(d.c), reinterpret_cast<Three>(d.scaled_c), d.inverse_c);
+unsigned take_long(const typename L::D (&x)[36], const Differences<L>& d, unsigned wanted, WholeDifferences<L>& w) {
+  typename L::D error_c[9];
+  for (int i = 0; i < 12; ++i) {
+    w.error_a[i] = difference_error<L>(flat(d.a)[i], x[12 + i], x[i]);
+    w.error_b[i] = difference_error<L>(flat(d.b)[i], x[24 + i], x[i]);
+    if (i < 9) error_c[i] = difference_error<L>(flat(d.c)[i], x[i + 3], x[i]);
+  }
+  w.is_long = true;
+  const unsigned lanes = wanted & split_long(flat(d.a), flat(d.scaled_a), d.scale_a, kSplit, w.a) &
+                         split_long(flat(d.b), flat(d.scaled_b), d.scale_b, kSplit, w.b) &
+                         split_long(flat(d.c), flat(d.scaled_c), d.scale_c, kSplit, w.c) &
+                         add_errors(w.error_a, d.scale_a, kSplit, w.a) & add_errors(w.error_b, d.scale_b, kSplit, w.b) &
+                         add_errors(error_c, d.scale_c, kSplit, w.c);
+  keep(w.a, lanes);
+  keep(w.b, lanes);
+  keep(w.c, lanes);
+  return lanes;
 }
 
-template <class L, class M>
-unsigned nonzero_polynomial(const M& m, const Differences<L>& d) {
+template <bool Long, class L, class M>
+unsigned nonzero_polynomial(const M& m, const WholeDifferences<L>& w) {
   using I = typename M::Number;
   I a[4][3], minus_a[4][3], b[4][3], c[3][3], normal[7][3];
-#pragma GCC unroll 4
-  for (int i = 0; i < 4; ++i)
-#pragma GCC unroll 3
-    for (int k = 0; k < 3; ++k) {
-      const typename L::D of_a = m.remainder(d.scaled_a[i][k]);
+#pragma GCC unroll 12
+  for (int e = 0; e < 12; ++e) {
+    const int i = e / 3, k = e % 3;
+    if constexpr (Long) {
+      a[i][k] = m.joined(m.remainder(w.a.high[e]), m.remainder(w.a.low[e]), kBinomial[i]);
+      minus_a[i][k] = m.minus(a[i][k]);
+      b[i][k] = m.joined(m.remainder(w.b.high[e]), m.remainder(w.b.low[e]), kBinomial[i]);
+      if (i < 3) c[i][k] = m.joined(m.remainder(w.c.high[e]), m.remainder(w.c.low[e]), i == 1 ? 2 : 1);
+    } else {
+      const typename L::D of_a = m.remainder(w.a.high[e]);
       a[i][k] = m.number(of_a, kBinomial[i]);
       minus_a[i][k] = m.number(of_a, -kBinomial[i]);
-      b[i][k] = m.number(m.remainder(d.scaled_b[i][k]), kBinomial[i]);
-      if (i < 3) c[i][k] = m.number(m.remainder(d.scaled_c[i][k]), i == 1 ? 2 : 1);
+      b[i][k] = m.number(m.remainder(w.b.high[e]), kBinomial[i]);
+      if (i < 3) c[i][k] = m.number(m.remainder(w.c.high[e]), i == 1 ? 2 : 1);
     }
+  }
   cross_forms(m, a, minus_a, b, normal);
   unsigned nonzero = 0;
 #pragma GCC unroll 9
   for (int s = 0; s < 9; ++s) nonzero |= m.nonzero(dot_coefficient(m, normal, c, s));
   return nonzero;
+}
+
+template <class L>
+unsigned c1_polynomial(const Differences<L>& d, const WholeDifferences<L>& w) {
+  unsigned c1 = L::kAll;
+#pragma GCC unroll 12
+  for (int i = 0; i < 12; ++i) c1 &= L::equal(flat(d.a)[i], Doubles<L>::minus(flat(d.b)[i]));
+  if (w.is_long)
+    for (int i = 0; i < 12; ++i) c1 &= L::equal(w.error_a[i], Doubles<L>::minus(w.error_b[i]));
+  return c1;
 }
 
 template <class L, class M>
@@ -150,56 +174,86 @@ LaneAnswers decide_polynomial(const double* const* points, Depth depth) {
   filter_polynomial<L>(d, forms, filtered);
   LaneAnswers answers;
   answers.filter = filtered.nonzero;
-  const unsigned left = d.in_range & ~filtered.nonzero;
+  unsigned left = d.in_range & ~filtered.nonzero;
   if (depth == Depth::filter || left == 0) return answers;
-  const unsigned exact = left & fits_fixed<L>(x, d) & exact_polynomial<L>(x, d);
+  left &= fits_fixed<L>(x, d);
+  WholeDifferences<L> w;
+  unsigned exact = take_short<L>(x, d, left, w);
+  if (exact != left) exact = take_long<L>(x, d, left, w);
   if (exact == 0) return answers;
 
-  using Four = D(&)[12];
-  using Three = D(&)[9];
-  Four a = reinterpret_cast<Four>(d.scaled_a), b = reinterpret_cast<Four>(d.scaled_b);
-  Three c = reinterpret_cast<Three>(d.scaled_c);
-  if (exact != L::kAll) {  // other lanes may hold anything
-    keep<L>(a, exact), keep<L>(b, exact), keep<L>(c, exact);
-    filtered.error = L::keep(filtered.error, exact);
-  }
-  const int zeros = common_zeros<L>(a) + common_zeros<L>(b) + common_zeros<L>(c);
-  const int primes = primes_for<M>(largest_exponent<L>(L::multiply(filtered.error, L::constant(2 * 70))) - zeros);
+  const int split = w.is_long ? kSplit : 0;
+  const int zeros = common_zeros(w.a, w.is_long, split) + common_zeros(w.b, w.is_long, split) +
+                    common_zeros(w.c, w.is_long, split) - 3 * split;
+  const D bound = L::multiply(exact == L::kAll ? filtered.error : L::keep(filtered.error, exact), L::constant(2 * 70));
+  const int primes = primes_for<M>(largest_exponent<L>(bound) - zeros);
+  if (primes > M::kPrimes) return answers;
   unsigned nonzero = 0;
-  for (int q = 0; q < primes && nonzero != exact; ++q) nonzero |= exact & nonzero_polynomial<L>(M(q), d);
+  for (int q = 0; q < primes && nonzero != exact; ++q) {
+    const M m(q, split);
+    nonzero |= exact & (w.is_long ? nonzero_polynomial<true>(m, w) : nonzero_polynomial<false>(m, w));
+  }
   answers.modular = nonzero;
   answers.coplanar = exact & ~nonzero;
   if (depth == Depth::zero_test || answers.coplanar == 0) return answers;
 
   answers.opposed = answers.coplanar & opposed_polynomial<L>(d, forms);
-  unsigned c1 = answers.coplanar;
-#pragma GCC unroll 4
-  for (int i = 0; i < 4; ++i)
-#pragma GCC unroll 3
-    for (int k = 0; k < 3; ++k) c1 &= L::equal(d.a[i][k], Doubles<L>::minus(d.b[i][k]));  // the differences are exact
-  answers.c1 = c1;
-  answers.not_c1 = answers.coplanar & ~c1;
+  answers.c1 = answers.coplanar & c1_polynomial<L>(d, w);
+  answers.not_c1 = answers.coplanar & ~answers.c1;
   return answers;
 }
 
 // ---- rational ------------------------------------------------------------------------------------------------------
 
-template <class L, class M>
-unsigned nonzero_rational(const M& m, const ScaledRows<L>& rows, bool cartesian) {
+template <class L>
+struct WholeRows {
+  Whole<L, 36> points;
+  Whole<L, 12> weights;
+  bool is_long = false;
+  int split = 0;
+};
+
+template <class L>
+unsigned take_whole(const typename L::D (&x)[36], const typename L::D (&w)[12], const ScaledRows<L>& rows,
+                    bool cartesian, unsigned wanted, WholeRows<L>& out) {
+  const typename L::I seen = see_long<L>(L::no_bits(), x, rows.points, rows.scale_points);
+  const unsigned lanes = wanted & L::without(see_long<L>(seen, w, rows.weights, rows.scale_weights));
+  if (lanes == wanted) {
+    take_short(rows.points, lanes, out.points);
+    take_short(rows.weights, lanes, out.weights);
+    return lanes;
+  }
+  out.is_long = true;
+  out.split = cartesian ? kSplitOfProducts : kSplit;
+  const unsigned long_lanes = wanted & split_long(x, rows.points, rows.scale_points, out.split, out.points) &
+                              split_long(w, rows.weights, rows.scale_weights, out.split, out.weights);
+  keep(out.points, long_lanes);
+  keep(out.weights, long_lanes);
+  return long_lanes;
+}
+
+template <bool Long, class L, class M>
+unsigned nonzero_rational(const M& m, const WholeRows<L>& rows, bool cartesian) {
   using I = typename M::Number;
   I h[3][4][4], line[5][6], rungs[7][6];
+  const auto number = [&](const auto& whole, int i, double factor) {
+    if constexpr (Long)
+      return m.joined(m.remainder(whole.high[i]), m.remainder(whole.low[i]), factor);
+    else
+      return m.number(m.remainder(whole.high[i]), factor);
+  };
 #pragma GCC unroll 3
   for (int r = 0; r < 3; ++r)
 #pragma GCC unroll 4
     for (int i = 0; i < 4; ++i) {
       const double binomial = r == 0 ? 1 : kBinomial[i];
-      const I w = m.number(m.remainder(rows.weights[4 * r + i]), binomial);
+      const I w = number(rows.weights, 4 * r + i, binomial);
       h[r][i][3] = m.close(m.add_product(m.zero(), w, m.one()));
 #pragma GCC unroll 3
       for (int k = 0; k < 3; ++k) {
-        const typename L::D x = m.remainder(rows.points[12 * r + 3 * i + k]);
-        h[r][i][k] = cartesian ? m.close(m.add_product(m.zero(), m.number(x, 1), w))
-                               : m.close(m.add_product(m.zero(), m.number(x, binomial), m.one()));
+        const int e = 12 * r + 3 * i + k;
+        h[r][i][k] = m.close(cartesian ? m.add_product(m.zero(), number(rows.points, e, 1), w)
+                                       : m.add_product(m.zero(), number(rows.points, e, binomial), m.one()));
       }
     }
   edge_line(m, h[0], line);
@@ -227,18 +281,23 @@ LaneAnswers decide_rational(const double* const* points, const double* const* we
   answers.filter = filtered.nonzero;
   const unsigned left = rows.in_range & ~filtered.nonzero;
   if (depth == Depth::filter || left == 0) return answers;
-  const unsigned exact =
-      left & are_whole<L>(x, rows.points, rows.inverse_points) & are_whole<L>(w, rows.weights, rows.inverse_weights);
+  WholeRows<L> whole;
+  const unsigned exact = take_whole<L>(x, w, rows, cartesian, left, whole);
   if (exact == 0) return answers;
 
-  if (exact != L::kAll) {
-    keep<L>(rows.points, exact), keep<L>(rows.weights, exact);
-    filtered.error = L::keep(filtered.error, exact);
-  }
-  const int zeros = 3 * common_zeros<L>(rows.points) + (cartesian ? 4 : 1) * common_zeros<L>(rows.weights);
-  const int primes = primes_for<M>(largest_exponent<L>(L::multiply(filtered.error, L::constant(2 * 152))) - zeros);
+  // det takes three coordinates, and the weights once, or four times if they multiply the points.
+  const int times = cartesian ? 4 : 1;
+  const int zeros = 3 * common_zeros(whole.points, whole.is_long, whole.split) +
+                    times * common_zeros(whole.weights, whole.is_long, whole.split) - (3 + times) * whole.split;
+  const D bound = L::multiply(exact == L::kAll ? filtered.error : L::keep(filtered.error, exact), L::constant(2 * 152));
+  const int primes = primes_for<M>(largest_exponent<L>(bound) - zeros);
+  if (primes > M::kPrimes) return answers;
   unsigned nonzero = 0;
-  for (int q = 0; q < primes && nonzero != exact; ++q) nonzero |= exact & nonzero_rational<L>(M(q), rows, cartesian);
+  for (int q = 0; q < primes && nonzero != exact; ++q) {
+    const M m(q, whole.split);
+    nonzero |= exact & (whole.is_long ? nonzero_rational<true>(m, whole, cartesian)
+                                      : nonzero_rational<false>(m, whole, cartesian));
+  }
   answers.modular = nonzero;
   answers.coplanar = exact & ~nonzero;
   if (depth == Depth::zero_test || answers.coplanar == 0) return answers;

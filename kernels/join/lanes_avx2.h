@@ -30,6 +30,16 @@ struct Lanes {
   static unsigned greater(D x, D y) { return mask(_mm256_cmp_pd(x, y, _CMP_GT_OQ)); }
   static void store(double* to, D x) { _mm256_storeu_pd(to, x); }
 
+  // Many comparisons, one mask: bits in which x and y ever differed. (0 and −0 differ.)
+  static I no_bits() { return _mm256_setzero_si256(); }
+  static I differences(I seen, D x, D y) { return _mm256_or_si256(seen, _mm256_castpd_si256(_mm256_xor_pd(x, y))); }
+  static unsigned without(I seen) { return mask(_mm256_castsi256_pd(_mm256_cmpeq_epi64(seen, no_bits()))); }
+  // The least size so far that is not zero, in `least`, which begins as infinity.
+  static D least_size(D least, D x) {
+    const D zero = _mm256_cmp_pd(x, constant(0), _CMP_EQ_OQ);
+    return _mm256_min_pd(least, _mm256_blendv_pd(abs(x), least, zero));
+  }
+
   // up: the power of two with 2^52 ≤ top · up < 2^53, down: 1 / up. Anything when top is not in range.
   static void scale_to_whole(D top, D& up, D& down) {
     const I exponent = _mm256_and_si256(_mm256_castpd_si256(top), _mm256_set1_epi64x(0x7ff0000000000000));
@@ -39,7 +49,6 @@ struct Lanes {
 
   // Whole numbers up to 2^51 in size stand in the mantissa of 3 · 2^51 + x. Of longer ones the lowest 27 bits are enough:
   // what rounding to a multiple of 2^27 takes off.
-  static I no_bits() { return _mm256_setzero_si256(); }
   static I collect_small_bits(I bits, D whole) {
     return _mm256_or_si256(bits, _mm256_castpd_si256(add(whole, constant(0x3p51))));
   }

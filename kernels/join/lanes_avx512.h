@@ -26,6 +26,18 @@ struct Lanes {
   static unsigned greater(D x, D y) { return _mm512_cmp_pd_mask(x, y, _CMP_GT_OQ); }
   static void store(double* to, D x) { _mm512_storeu_pd(to, x); }
 
+  // Many comparisons, one mask: bits in which x and y ever differed. (0 and −0 differ.)
+  static I no_bits() { return _mm512_setzero_si512(); }
+  static I differences(I seen, D x, D y) {  // seen | (x ^ y)
+    return _mm512_ternarylogic_epi64(seen, _mm512_castpd_si512(x), _mm512_castpd_si512(y), 0xf6);
+  }
+  static unsigned without(I seen) { return _mm512_testn_epi64_mask(seen, seen); }
+  // The least size so far that is not zero, in `least`, which begins as infinity. As bits: those of 0 minus 1 are the largest.
+  static D least_size(D least, D x) {
+    const I bits = _mm512_sub_epi64(_mm512_castpd_si512(abs(x)), _mm512_set1_epi64(1));
+    return _mm512_castsi512_pd(_mm512_min_epu64(_mm512_castpd_si512(least), bits));
+  }
+
   // up: the power of two with 2^52 ≤ top · up < 2^53, down: 1 / up. Anything when top is not in range.
   static void scale_to_whole(D top, D& up, D& down) {
     const I exponent = _mm512_and_si512(_mm512_castpd_si512(top), _mm512_set1_epi64(0x7ff0000000000000));
@@ -33,7 +45,6 @@ struct Lanes {
     down = _mm512_castsi512_pd(_mm512_sub_epi64(exponent, _mm512_set1_epi64(52LL << 52)));
   }
 
-  static I no_bits() { return _mm512_setzero_si512(); }
   static I collect_bits(I bits, D whole) { return _mm512_or_si512(bits, _mm512_cvtpd_epi64(whole)); }
   static I collect_small_bits(I bits, D whole) { return collect_bits(bits, whole); }
   static constexpr int kZerosSeen = 53;

@@ -144,20 +144,25 @@ void rung_lines(const N& n, const V (&a)[4][4], const V (&b)[4][4], V (&out)[7][
 
 // ---- polynomial joins ----------------------------------------------------------------------------------------------
 
+template <class L>
+struct Scale {
+  typename L::D up, down;  // powers of two, up · down = 1
+};
+
 // The differences, each kind scaled by its own power of two (det is linear in each), and their largest sizes.
 template <class L>
 struct Differences {
   using D = typename L::D;
   D a[4][3], b[4][3], c[3][3];  // as rounded
   D scaled_a[4][3], scaled_b[4][3], scaled_c[3][3];
-  D a_max[3], b_max[3], c_max[3];     // of the scaled ones
-  D inverse_a, inverse_b, inverse_c;  // 1 / scale
-  unsigned in_range;                  // lanes where all is finite and every kind's largest number is in range
+  D a_max[3], b_max[3], c_max[3];  // of the scaled ones
+  Scale<L> scale_a, scale_b, scale_c;
+  unsigned in_range;  // lanes where all is finite and every kind's largest number is in range
 };
 
 template <class L, int P>
 unsigned scale_forms(const typename L::D (&raw)[P][3], typename L::D (&scaled)[P][3], typename L::D (&largest)[3],
-                     typename L::D& inverse) {
+                     Scale<L>& scale) {
   using D = typename L::D;
   D total = L::constant(0);  // infinite or not a number when an entry is
 #pragma GCC unroll 3
@@ -170,13 +175,12 @@ unsigned scale_forms(const typename L::D (&raw)[P][3], typename L::D (&scaled)[P
     }
   }
   const D top = L::max(L::max(largest[0], largest[1]), largest[2]);
-  D scale;
-  L::scale_to_whole(top, scale, inverse);
+  L::scale_to_whole(top, scale.up, scale.down);
 #pragma GCC unroll 3
   for (int k = 0; k < 3; ++k) {
-    largest[k] = L::multiply(largest[k], scale);
+    largest[k] = L::multiply(largest[k], scale.up);
 #pragma GCC unroll 4
-    for (int i = 0; i < P; ++i) scaled[i][k] = L::multiply(raw[i][k], scale);
+    for (int i = 0; i < P; ++i) scaled[i][k] = L::multiply(raw[i][k], scale.up);
   }
   return L::greater(L::constant(kLargestInRange), total) & L::greater(top, L::constant(kSmallestInRange));
 }
@@ -193,9 +197,9 @@ void take_differences(const typename L::D (&x)[36], Differences<L>& d) {
       d.b[i][k] = L::subtract(x[24 + e], x[e]);
       if (i < 3) d.c[i][k] = L::subtract(x[e + 3], x[e]);
     }
-  d.in_range = scale_forms<L>(d.a, d.scaled_a, d.a_max, d.inverse_a) &
-               scale_forms<L>(d.b, d.scaled_b, d.b_max, d.inverse_b) &
-               scale_forms<L>(d.c, d.scaled_c, d.c_max, d.inverse_c);
+  d.in_range = scale_forms<L>(d.a, d.scaled_a, d.a_max, d.scale_a) &
+               scale_forms<L>(d.b, d.scaled_b, d.b_max, d.scale_b) &
+               scale_forms<L>(d.c, d.scaled_c, d.c_max, d.scale_c);
 }
 
 template <class L>

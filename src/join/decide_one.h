@@ -26,10 +26,10 @@ struct OneLane {
   static D max(D x, D y) { return x > y ? x : y; }
   static unsigned equal(D x, D y) { return x == y; }
   static unsigned greater(D x, D y) { return x > y; }
-  static void scale_to_whole(D top, D& scale, D& inverse) {
+  static void scale_to_whole(D top, D& up, D& down) {
     const std::uint64_t exponent = std::bit_cast<std::uint64_t>(top) & 0x7ff0000000000000;
-    scale = std::bit_cast<double>((std::uint64_t{2 * 1023 + 52} << 52) - exponent);
-    inverse = std::bit_cast<double>(exponent - (std::uint64_t{52} << 52));
+    up = std::bit_cast<double>((std::uint64_t{2 * 1023 + 52} << 52) - exponent);
+    down = std::bit_cast<double>(exponent - (std::uint64_t{52} << 52));
   }
 };
 

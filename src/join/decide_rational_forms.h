@@ -10,28 +10,28 @@ namespace patchproof::decide {
 template <class L>
 struct ScaledRows {
   typename L::D points[36], weights[12];
-  typename L::D inverse_points, inverse_weights;  // 1 / scale
+  Scale<L> scale_points, scale_weights;
   unsigned in_range;
 };
 
 template <class L, int Size>
-unsigned scale_row(const typename L::D (&raw)[Size], typename L::D (&scaled)[Size], typename L::D& inverse) {
+unsigned scale_row(const typename L::D (&raw)[Size], typename L::D (&scaled)[Size], Scale<L>& scale) {
   using D = typename L::D;
-  D total = L::constant(0), top = L::constant(0), scale;
+  D total = L::constant(0), top = L::constant(0);
 #pragma GCC unroll 36
   for (int i = 0; i < Size; ++i) {
     total = L::add(total, L::abs(raw[i]));
     top = L::max(top, L::abs(raw[i]));
   }
-  L::scale_to_whole(top, scale, inverse);
+  L::scale_to_whole(top, scale.up, scale.down);
 #pragma GCC unroll 36
-  for (int i = 0; i < Size; ++i) scaled[i] = L::multiply(raw[i], scale);
+  for (int i = 0; i < Size; ++i) scaled[i] = L::multiply(raw[i], scale.up);
   return L::greater(L::constant(kLargestInRange), total) & L::greater(top, L::constant(kSmallestInRange));
 }
 
 template <class L>
 void take_scaled(const typename L::D (&x)[36], const typename L::D (&w)[12], ScaledRows<L>& out) {
-  out.in_range = scale_row<L>(x, out.points, out.inverse_points) & scale_row<L>(w, out.weights, out.inverse_weights);
+  out.in_range = scale_row<L>(x, out.points, out.scale_points) & scale_row<L>(w, out.weights, out.scale_weights);
 }
 
 template <class L>

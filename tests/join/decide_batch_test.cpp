@@ -243,10 +243,10 @@ TEST(DecideFilter, BoundOfThePolynomialDeterminant) {
     for (int k = 0; k < 3; ++k)
       for (int j = 0; j < 4; ++j) {
         const Rational binomial(j == 1 || j == 2 ? 3 : 1), e = from_double(rows.edge[j][k]);
-        a[k].push_back(binomial * (from_double(rows.behind_a[j][k]) - e) / from_double(d.inverse_a));
-        b[k].push_back(binomial * (from_double(rows.behind_b[j][k]) - e) / from_double(d.inverse_b));
+        a[k].push_back(binomial * (from_double(rows.behind_a[j][k]) - e) / from_double(d.scale_a.down));
+        b[k].push_back(binomial * (from_double(rows.behind_b[j][k]) - e) / from_double(d.scale_b.down));
         if (j < 3)
-          c[k].push_back(Rational(j == 1 ? 2 : 1) * (from_double(rows.edge[j + 1][k]) - e) / from_double(d.inverse_c));
+          c[k].push_back(Rational(j == 1 ? 2 : 1) * (from_double(rows.edge[j + 1][k]) - e) / from_double(d.scale_c.down));
       }
     const Form det = dot_of(c, cross_of(a, b));
     for (int s = 0; s < 9; ++s)
@@ -286,9 +286,9 @@ TEST(DecideFilter, BoundOfTheRationalDeterminant) {
     for (int r = 0; r < 3; ++r)
       for (int j = 0; j < 4; ++j) {
         const Rational binomial(r > 0 && (j == 1 || j == 2) ? 3 : 1),
-            weight = from_double(w[4 * r + j]) / from_double(scaled.inverse_weights) * binomial;
+            weight = from_double(w[4 * r + j]) / from_double(scaled.scale_weights.down) * binomial;
         for (int k = 0; k < 3; ++k)
-          rows_of[r][k].push_back(from_double(x[12 * r + 3 * j + k]) / from_double(scaled.inverse_points) *
+          rows_of[r][k].push_back(from_double(x[12 * r + 3 * j + k]) / from_double(scaled.scale_points.down) *
                                   (cartesian ? weight : binomial));
         rows_of[r][3].push_back(weight);
       }

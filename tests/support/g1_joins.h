@@ -69,4 +69,10 @@ inline void spoil(BicubicJoinRows& rows, double step = 0) {
   x = step == 0 ? std::nextafter(x, 1e9) : x + step;
 }
 
+// Shrinks the model in z by 2^bits: an affine map, so the join is what it was.
+inline void flatten(BicubicJoinRows& rows, int bits) {
+  for (auto* row : {&rows.edge, &rows.behind_a, &rows.behind_b})
+    for (auto& point : *row) point[2] = std::ldexp(point[2], -bits);
+}
+
 }  // namespace patchproof::test

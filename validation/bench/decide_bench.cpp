@@ -33,19 +33,22 @@ struct NamedFamily {
   const char* name;
   test::G1Family family;
   bool spoiled;
-  double step;  // 0: one unit in the last place
+  double step;        // 0: one unit in the last place
+  int flattened = 0;  // bits that numbers are longer
 };
 constexpr NamedFamily kFamilies[] = {{"D24", test::kD24, false, 0},
                                      {"D53", test::kD53, false, 0},
                                      {"D53_one_ulp_off", test::kD53, true, 0},
                                      {"D53_least_bit_off", test::kD53, true, 0x1p-46},
                                      {"D53_1e-6_off", test::kD53, true, 1e-6},
+                                     {"D63", test::kD53, false, 0, 10},
                                      {"R53", test::kR53, false, 0},
                                      {"R106", test::kR106, false, 0},
                                      {"R106_1e-6_off", test::kR106, true, 1e-6}};
 
 std::vector<BicubicJoinRows> joins_of(const NamedFamily& named) {
   std::vector<BicubicJoinRows> joins = test::make_g1_joins(named.family, kJoins);
+  for (BicubicJoinRows& rows : joins) test::flatten(rows, named.flattened);
   if (named.spoiled)
     for (BicubicJoinRows& rows : joins) test::spoil(rows, named.step);
   return joins;

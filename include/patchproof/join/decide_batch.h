@@ -16,8 +16,9 @@
 //             |det coefficient| ≤ 2 · bound, far less than 2^(3 (b + 1) + 8.8), which whole numbers below 2^b allow, or
 //             2^(4 h + 13.5) for homogeneous numbers below 2^h. Zero modulo primes whose product is greater is zero; one
 //             residue that is not zero refutes. Sides and regularity: n_A · n_B < 0 in doubles, with bounds of their own
-//   fixed     decide_fixed_g1: what the two above leave open, and numbers they cannot take. Those are differences above 53
-//             bits (coordinates or weights above 53 bits, when weighted), sizes outside 2^±900, and zero rows
+//   fixed     decide_fixed_g1: what the two above leave open, and numbers they do not take: edge coordinates or
+//             differences of which one kind spreads over more than 103 bits (with weights: points and weights over 61 bits,
+//             homogeneous ones over 103), sizes outside 2^±900, rows of zeros
 //
 // REQUIRES  all numbers are finite.
 // ENSURES   (1) c0 and c1 are the statements above;  (2) g1 is what decide_fixed_g1 answers, when that is not empty and the
