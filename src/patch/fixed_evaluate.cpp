@@ -29,56 +29,92 @@ Dyadic split(double x) {
 }
 int bit_length(std::int64_t x) { return static_cast<int>(std::bit_width(static_cast<Word>(x < 0 ? -x : x))); }
 
-// The lowest exponent and the length of all numbers as multiples of 2^lowest: |x| < 2^(lowest + bits).
-struct Range {
+// Several doubles as multiples of 2^lowest: |x| < 2^(lowest + bits).
+struct WholeNumbers {
+  std::array<Dyadic, FixedPatch::kMostPoints> x;
   int lowest = 0, bits = 0;
-};
-Range range_of(std::span<const double> x, std::size_t stride, std::size_t first) {
-  int lowest = std::numeric_limits<int>::max(), highest = std::numeric_limits<int>::min();
-  for (std::size_t i = first; i < x.size(); i += stride)
-    if (const Dyadic d = split(x[i]); d.mantissa != 0) {
-      lowest = std::min(lowest, d.exponent);
-      highest = std::max(highest, d.exponent + bit_length(d.mantissa));
-    }
-  if (lowest > highest) return {};
-  return {lowest, highest - lowest};
-}
 
-constexpr int kNumberLimbs = 4;
-FixedInteger<kNumberLimbs> whole_number(double x, int lowest) {
-  const Dyadic d = split(x);
-  if (d.mantissa == 0) return {};
-  return FixedInteger<kNumberLimbs>(d.mantissa) << (d.exponent - lowest);
-}
-
-// C(n,i) s^(n−i) t^i for all i.
-template <int W>
-std::array<FixedInteger<W>, FixedPatch::kMostDegree + 1> bernstein_factors(int n, const FixedInteger<2>& s,
-                                                                           const FixedInteger<2>& t) {
-  const auto narrow = [](const FixedInteger<2>& x) {  // a factor of degree 0 or 1 fits because the widths were checked
-    if constexpr (W > 2) {
-      return FixedInteger<W>(x);
-    } else {
-      FixedInteger<W> out;
-      for (int i = 0; i < W; ++i) out.limb(i) = x.limb(i);
-      return out;
+  WholeNumbers(std::span<const double> from, std::size_t first, std::size_t stride) {
+    int low = std::numeric_limits<int>::max(), high = std::numeric_limits<int>::min();
+    for (std::size_t i = first, k = 0; i < from.size(); i += stride, ++k) {
+      x[k] = split(from[i]);
+      if (x[k].mantissa == 0) continue;
+      low = std::min(low, x[k].exponent);
+      high = std::max(high, x[k].exponent + bit_length(x[k].mantissa));
     }
-  };
-  std::array<FixedInteger<W>, FixedPatch::kMostDegree + 1> out;
-  const FixedInteger<W> ws = narrow(s), wt = narrow(t);
-  FixedInteger<W> power(1);
-  std::int64_t binomial = 1;
-  for (int i = 0; i <= n; ++i) {  // C(n,i) t^i
-    out[i] = i == 0 || i == n ? power : FixedInteger<W>(binomial) * power;
-    if (i < n) power = i == 0 ? wt : power * wt;
-    binomial = binomial * (n - i) / (i + 1);
+    if (low > high) return;
+    lowest = low;
+    bits = high - low;
   }
-  power = ws;
-  for (int i = n - 1; i >= 0; --i) {
-    out[i] = i == 0 ? power : out[i] * power;
-    if (i > 0) power = power * ws;
+  int shift(std::size_t k) const { return x[k].mantissa == 0 ? 0 : x[k].exponent - lowest; }
+  FixedInteger<4> operator[](std::size_t k) const { return FixedInteger<4>(x[k].mantissa) << shift(k); }
+};
+
+// x y modulo 2^(64 W). REQUIRES x, y ≥ 0.
+template <int W>
+FixedInteger<W> times(const FixedInteger<W>& x, const FixedInteger<2>& y) {
+  FixedInteger<W> out;
+  for (int j = 0; j < (y.limb(1) != 0 ? 2 : 1); ++j) {
+    Word carry = 0;
+    for (int i = 0; i + j < W; ++i) {
+      const detail::WordPair p = detail::multiply_words(x.limb(i), y.limb(j), out.limb(i + j), carry);
+      out.limb(i + j) = p.low;
+      carry = p.high;
+    }
   }
   return out;
+}
+FixedInteger<2> size_of(const FixedInteger<2>& x) { return x.sign_word() != 0 ? -x : x; }
+
+template <int W>
+struct Factors {
+  std::array<FixedInteger<W>, FixedPatch::kMostDegree + 1> size;
+  std::array<bool, FixedPatch::kMostDegree + 1> negative;
+};
+
+// C(n,i) s^(n−i) t^i for all i. The widths are those of the whole products: C(n,i) |t|^i alone may be too long when s is
+// 0, but then it is right modulo 2^(64 W), and so is the product, which fits.
+template <int W>
+Factors<W> bernstein_factors(int n, const FixedInteger<2>& s, const FixedInteger<2>& t) {
+  const FixedInteger<2> positive_s = size_of(s), positive_t = size_of(t);
+  const bool s_negative = s.sign_word() != 0, t_negative = t.sign_word() != 0;
+  Factors<W> out;
+  FixedInteger<W> power(1);
+  std::int64_t binomial = 1;
+  for (int i = 0; i <= n; ++i) {
+    out.size[i] = binomial == 1 ? power : times(power, FixedInteger<2>(binomial));
+    out.negative[i] = (s_negative && (n - i) % 2 != 0) != (t_negative && i % 2 != 0);
+    if (i < n) power = times(power, positive_t);
+    binomial = binomial * (n - i) / (i + 1);
+  }
+  power = FixedInteger<W>(1);
+  for (int i = n - 1; i >= 0; --i) {
+    power = times(power, positive_s);
+    out.size[i] = i == 0 ? power : out.size[i] * power;
+  }
+  return out;
+}
+
+// sum += factor · x. REQUIRES factor ≥ 0, and that the widths hold every partial sum.
+template <int S, int N, int M>
+void add_multiple(FixedInteger<S>& sum, const FixedInteger<N>& factor, const FixedInteger<M>& x) {
+  static_assert(S == N + M);
+  for (int j = 0; j < M; ++j) {
+    Word carry = 0;
+    for (int i = 0; i < N; ++i) {
+      const detail::WordPair p = detail::multiply_words(factor.limb(i), x.limb(j), sum.limb(i + j), carry);
+      sum.limb(i + j) = p.low;
+      carry = p.high;
+    }
+    for (int i = j + N; i < S; ++i) {
+      sum.limb(i) += carry;
+      carry = sum.limb(i) < carry ? 1 : 0;
+    }
+  }
+  // Read without its sign a negative x is larger by 2^(64 M).
+  const Word mask = x.sign_word();
+  Word borrow = 0;
+  for (int i = 0; i < N; ++i) sum.limb(M + i) = detail::subtract_words(sum.limb(M + i), factor.limb(i) & mask, borrow);
 }
 
 // |x| in the first `limbs` words; the sign.
@@ -90,18 +126,11 @@ bool store_magnitude(const FixedInteger<N>& x, int limbs, Word* out) {
   return negative;
 }
 
-// The factors b^p, c^q of a denominator.
 template <int W>
 FixedInteger<W> power_of(const FixedInteger<2>& b, int n) {
   FixedInteger<W> out(1);
-  for (int i = 0; i < n; ++i) {
-    FixedInteger<W> wide;
-    if constexpr (W > 2)
-      wide = FixedInteger<W>(b);
-    else
-      for (int k = 0; k < W; ++k) wide.limb(k) = b.limb(k);
-    out = out * wide;
-  }
+  if (b.limb(0) == 1 && b.limb(1) == 0) return out;
+  for (int i = 0; i < n; ++i) out = times(out, b);
   return out;
 }
 
@@ -143,8 +172,7 @@ FixedParameter::FixedParameter(const FixedInteger<2>& s, const FixedInteger<2>& 
                      (FixedInteger<2>(1) << (length - 1)).limb(1) == sum.limb(1);
   shift_ = power ? length - 1 : 0;
   odd_part_ = power ? FixedInteger<2>(1) : sum;
-  const auto size = [](const FixedInteger<2>& x) { return x.sign() == Sign::negative ? -x : x; };
-  bits_ = (size(s_) + size(t_) - FixedInteger<2>(1)).magnitude_bits();
+  bits_ = (size_of(s_) + size_of(t_) - FixedInteger<2>(1)).magnitude_bits();
 }
 
 std::optional<FixedParameter> FixedParameter::from_double(double x) {
@@ -168,32 +196,32 @@ std::optional<FixedPatch> FixedPatch::make(int degree_u, int degree_v, std::span
   const std::size_t count = (degree_u + std::size_t(1)) * (degree_v + std::size_t(1));
   PATCHPROOF_REQUIRES(points.size() == 3 * count && (weights.empty() || weights.size() == count),
                       "FixedPatch: the degrees do not fit the points and weights");
-  FixedPatch out;
-  out.degree_u_ = degree_u;
-  out.degree_v_ = degree_v;
-  out.rational_ = !weights.empty();
-  const Range w = range_of(weights, 1, 0);
-  std::array<Range, 3> x;
-  int bits = w.bits;
-  for (std::size_t c = 0; c < 3; ++c) {
-    x[c] = range_of(points, 3, c);
-    bits = std::max(bits, x[c].bits + w.bits);
-    out.exponent_[c] = x[c].lowest;
-  }
+  const WholeNumbers w(weights, 0, 1);
+  const std::array<WholeNumbers, 3> x{WholeNumbers(points, 0, 3), WholeNumbers(points, 1, 3),
+                                      WholeNumbers(points, 2, 3)};
+  const int bits = std::max({w.bits, x[0].bits + w.bits, x[1].bits + w.bits, x[2].bits + w.bits});
   if (bits > kMostBits) return std::nullopt;
-  const int limbs = out.limbs_ = bits <= 63 ? 1 : bits <= 127 ? 2 : 4;
-  for (std::size_t i = 0; i < count; ++i) {
-    FixedInteger<kNumberLimbs> weight(1);
-    if (out.rational_) weight = whole_number(weights[i], w.lowest);
-    const auto put = [&](std::size_t c, const FixedInteger<kNumberLimbs>& number) {
-      for (int k = 0; k < limbs; ++k) out.numbers_[c][i * limbs + k] = number.limb(k);
-    };
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto number = whole_number(points[3 * i + c], x[c].lowest);
-      put(c, out.rational_ ? weight * number : number);
-    }
-    put(3, weight);
+
+  std::optional<FixedPatch> out(std::in_place, Uninitialized());
+  out->degree_u_ = degree_u;
+  out->degree_v_ = degree_v;
+  out->rational_ = !weights.empty();
+  const int limbs = out->limbs_ = bits <= 63 ? 1 : bits <= 127 ? 2 : 4;
+  const auto put = [&](std::size_t c, std::size_t i, const FixedInteger<4>& number) {
+    for (int k = 0; k < limbs; ++k) out->numbers_[c][i * limbs + k] = number.limb(k);
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    out->exponent_[c] = x[c].lowest;
+    for (std::size_t i = 0; i < count; ++i)
+      if (out->rational_)
+        put(c, i, w[i] * x[c][i]);
+      else if (limbs == 1)
+        out->numbers_[c][i] = static_cast<Word>(x[c].x[i].mantissa) << x[c].shift(i);
+      else
+        put(c, i, x[c][i]);
   }
+  if (out->rational_)
+    for (std::size_t i = 0; i < count; ++i) put(3, i, w[i]);
   return out;
 }
 
@@ -208,9 +236,9 @@ bool FixedPatch::evaluate_in(const FixedParameter& u, const FixedParameter& v, F
       for (int j = 0; j <= degree_v_; ++j, word += L) {
         FixedInteger<L> x;
         for (int k = 0; k < L; ++k) x.limb(k) = word[k];
-        add_product(row, b[j], x);
+        add_multiple(row, b.size[j], b.negative[j] ? -x : x);
       }
-      add_product(sum, a[i], row);
+      add_multiple(sum, a.size[i], a.negative[i] ? -row : row);
     }
     return sum;
   };
@@ -244,7 +272,7 @@ bool FixedPatch::evaluate_with(const FixedParameter& u, const FixedParameter& v,
 
 std::optional<FixedPoint> FixedPatch::evaluate(const FixedParameter& u, const FixedParameter& v) const {
   const int bits = std::max(degree_u_ * u.bits(), degree_v_ * v.bits());
-  std::optional<FixedPoint> out = FixedPoint();
+  std::optional<FixedPoint> out(std::in_place, FixedPoint::Uninitialized());
   const bool defined = bits <= 62    ? evaluate_with<1>(u, v, *out)
                        : bits <= 190 ? evaluate_with<3>(u, v, *out)
                        : bits <= 318 ? evaluate_with<5>(u, v, *out)

@@ -25,7 +25,7 @@
 //           0, …, 5 or a whole number takes more than 255 bits; a parameter is empty when it is not accepted as above;
 //           evaluate never is, except where the denominator vanishes;  (4) parameters outside [0, 1] are those of the
 //           polynomial;  (5) scaling all coordinates by a power of two scales the point.
-// COST      (p + 1)(q + 1) W L + (p + 1) W (W + L) word products for each coordinate, and about 6 W² for the factors. No
+// COST      (p + 1)(q + 1) W L + (p + 1) W (W + L) word products for each coordinate, and about 4 p W + p W² for the factors. No
 //           heap, except in coordinate().
 // NEIGHBOURS bezier_patch.h, rational_patch.h (evaluate() over Rational: the oracle of the tests), evaluate_batch.h.
 // TEST      tests/patch/fixed_evaluate_test.cpp checks (1)–(5).
@@ -66,6 +66,11 @@ class FixedParameter {
 class FixedPoint {
  public:
   static constexpr int kMostLimbs = 24;
+  class Uninitialized {  // only for FixedPatch
+    friend class FixedPatch;
+    Uninitialized() = default;
+  };
+  explicit FixedPoint(Uninitialized) {}
 
   Rational coordinate(int c) const;
   double nearest(int c) const;
@@ -73,7 +78,6 @@ class FixedPoint {
  private:
   friend class FixedPatch;
   using Words = std::array<std::uint64_t, kMostLimbs>;
-  FixedPoint() = default;
 
   // Magnitudes, the first `limbs_` words of each.
   int limbs_;
@@ -85,7 +89,12 @@ class FixedPoint {
 
 class FixedPatch {
  public:
-  static constexpr int kMostDegree = 5, kMostBits = 255;
+  static constexpr int kMostDegree = 5, kMostBits = 255, kMostPoints = (kMostDegree + 1) * (kMostDegree + 1);
+  class Uninitialized {  // only for make
+    friend class FixedPatch;
+    Uninitialized() = default;
+  };
+  explicit FixedPatch(Uninitialized) {}
 
   // points: x y z each, j (along v) running fastest.
   static std::optional<FixedPatch> make(int degree_u, int degree_v, std::span<const double> points,
@@ -94,8 +103,7 @@ class FixedPatch {
   std::optional<FixedPoint> evaluate(const FixedParameter& u, const FixedParameter& v) const;
 
  private:
-  static constexpr int kMostPoints = (kMostDegree + 1) * (kMostDegree + 1), kMostNumberLimbs = 4;
-  FixedPatch() = default;
+  static constexpr int kMostNumberLimbs = 4;
   template <int W, int L>
   bool evaluate_in(const FixedParameter& u, const FixedParameter& v, FixedPoint& out) const;
   template <int W>
