@@ -11,11 +11,8 @@
 #include <vector>
 
 #include "kernels/kernel_table.h"
-#include "patchproof/scalar/parse_scalar.h"
 
 namespace patchproof::batch {
-
-inline std::string text(double x) { return to_text(x); }
 
 // Items a thread takes at a time: a multiple of the tiles of all kernels and of all vectors.
 constexpr std::size_t kShare = std::size_t{1} << 14;

@@ -22,6 +22,12 @@ struct BoundedSinks {
         bound(call.bound) {}
 };
 
+HWY_NOINLINE inline void put_numbers(V numbers, double* to, std::size_t count) {
+  HWY_ALIGN double buffer[kLanes];
+  hn::Store(numbers, D(), buffer);
+  for (std::size_t i = 0; i < count; ++i) to[i] = buffer[i];
+}
+
 // kLanes points with their bounds, or the first `count` of them.
 PATCHPROOF_INLINE void put_bounded(const BoundedSinks& out, const Lanes (&point)[3], V bound, std::size_t at,
                                    std::size_t count) {
@@ -37,7 +43,7 @@ PATCHPROOF_INLINE void put_bounded(const BoundedSinks& out, const Lanes (&point)
     if (whole)
       hn::StoreU(bound, D(), out.bound + at);
     else
-      hn::BlendedStore(bound, hn::FirstN(D(), count), D(), out.bound + at);
+      put_numbers(bound, out.bound + at, count);
   }
   if (!out.lower.wanted()) return;
   // The ends are rounded too: by at most u(|point| + bound) each.
@@ -55,7 +61,8 @@ PATCHPROOF_INLINE void put_bounded(const BoundedSinks& out, const Lanes (&point)
 // See error_bounds.h. +infinity where the denominator may be zero.
 PATCHPROOF_INLINE V rational_bound(V numerator_error, V weight_error, const Lanes (&point)[3], V weight) {
   const V size = hn::Max(hn::Abs(point[0].v), hn::Max(hn::Abs(point[1].v), hn::Abs(point[2].v)));
-  const V smallest = hn::Sub(hn::Abs(weight), weight_error), numerator = hn::MulAdd(size, weight_error, numerator_error);
+  const V smallest = hn::Sub(hn::Abs(weight), weight_error),
+          numerator = hn::MulAdd(size, weight_error, numerator_error);
   const V bound = hn::MulAdd(size, hn::Set(D(), 3 * kUnitRoundoff), hn::Div(numerator, smallest));
   const V safe = hn::MulAdd(bound, hn::Set(D(), kBoundSlack), hn::Set(D(), kUnderflow));
   return hn::IfThenElse(hn::Gt(smallest, hn::Zero(D())), safe, hn::Inf(D()));
@@ -102,7 +109,7 @@ struct BoundedKernel {
       SurfaceJet<0, Value> jet = surface_jet<0>(rows, Group<1>(1.0), Group<1>(1.0));
       if constexpr (Rational) {
         const V weight = jet.d[0].c[0][3].v;
-        vanishing = hn::Or(vanishing, vanishes(weight));
+        vanishing = hn::Or(vanishing, vanishes(weight, i, count));
         jet = quotient<0>(jet);
         const auto& c = jet.d[0].c[0];
         const Lanes point[3] = {c[0], c[1], c[2]};
@@ -121,8 +128,9 @@ struct BoundedKernel {
     const int p = kFixed ? DegreeU : s.u.degree, q = kFixed ? DegreeV : s.v.degree;
     const std::size_t row_length = kFixed ? 8 * (DegreeU + 1) : s.row;
     bool good = true;
-    HWY_ALIGN double number[4][kTile];                   // x, y, z, and the bound or the weight
-    HWY_ALIGN double of_numerator[kTile], of_weight[kTile];  // errors
+    HWY_ALIGN double number[4][kTile];     // x, y, z, and the bound or the weight
+    HWY_ALIGN double of_numerator[kTile];  // errors
+    HWY_ALIGN double of_weight[kTile];
     for (std::size_t i = 0; i < count; ++i) {
       const double* coefficients = s.coefficients(span_u[i], span_v[i]);
       const Parameter local_x{x[i]}, local_y{y[i]};

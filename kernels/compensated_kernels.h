@@ -40,8 +40,8 @@ PATCHPROOF_INLINE Vec product_error(Tag tag, Vec a, Vec b, Vec product) {
   };
   Vec a_low, b_low;
   const Vec a_high = split(a, a_low), b_high = split(b, b_low);
-  const Vec rest = hn::Sub(hn::Sub(hn::Sub(product, hn::Mul(a_high, b_high)), hn::Mul(a_low, b_high)),
-                           hn::Mul(a_high, b_low));
+  const Vec rest =
+      hn::Sub(hn::Sub(hn::Sub(product, hn::Mul(a_high, b_high)), hn::Mul(a_low, b_high)), hn::Mul(a_high, b_low));
   return hn::Sub(hn::Mul(a_low, b_low), rest);
 #endif
 }
@@ -110,8 +110,8 @@ PATCHPROOF_INLINE void round_points(const Compensated<D> (&sum)[4], const V (&bo
     out.point[k] = hn::Add(s, hn::Zero(d));  // no −0
   }
   const V yes = hn::Set(d, 1.0);
-  hn::Store(hn::BitCast(hn::RebindToUnsigned<D>(), hn::IfThenZeroElse(all_decided, yes)),
-            hn::RebindToUnsigned<D>(), flags);
+  hn::Store(hn::BitCast(hn::RebindToUnsigned<D>(), hn::IfThenZeroElse(all_decided, yes)), hn::RebindToUnsigned<D>(),
+            flags);
   for (int i = 0; i < count; ++i) undecided[i] = flags[i] != 0;
 }
 
@@ -133,8 +133,10 @@ struct CompensatedKernel {
     const V centre_u = hn::Set(d, s.u.centre[span_u]), scale_u = hn::Set(d, s.u.scale[span_u]);
     const V centre_v = hn::Set(d, s.v.centre[span_v]), scale_v = hn::Set(d, s.v.scale[span_v]);
     const auto local = [&](const double* t, std::size_t i, V centre, V scale, V& x_low) {
-      const auto valid = hn::FirstN(d, count - i);
-      const V difference = two_sum(d, hn::IfThenElse(valid, hn::MaskedLoad(valid, d, t + i), centre), hn::Neg(centre), x_low);
+      const bool whole = count - i >= static_cast<std::size_t>(kLanes);
+      const V at_t =
+          whole ? hn::LoadU(d, t + i) : hn::IfThenElse(hn::FirstN(d, count - i), load_some(t + i, count - i), centre);
+      const V difference = two_sum(d, at_t, hn::Neg(centre), x_low);
       x_low = hn::Mul(x_low, scale);
       return hn::Mul(difference, scale);
     };
@@ -170,7 +172,9 @@ struct CompensatedKernel {
                                      const Sink& out, unsigned char* undecided) {
     const int p = kFixed ? DegreeU : s.u.degree, q = kFixed ? DegreeV : s.v.degree;
     const std::size_t row_length = kFixed ? 8 * (DegreeU + 1) : s.row;
-    HWY_ALIGN double value[4][kTile], correction[4][kTile], bounds[4][kTile];
+    HWY_ALIGN double value[4][kTile];
+    HWY_ALIGN double correction[4][kTile];
+    HWY_ALIGN double bounds[4][kTile];
     const auto difference = [](double t, double centre, double scale, double& low) {
       const double sum = t - centre, part = sum - t;
       low = ((t - (sum - part)) + (-centre - part)) * scale;

@@ -10,9 +10,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace patchproof::kernels::HWY_NAMESPACE {
 
-// |w| below this (weights are scaled to at most 1) is taken for a zero of the denominator.
-constexpr double kSmallestWeight = 0x1p-900;
-
 struct CurveSinks {
   Sink d[3];
 };
@@ -21,7 +18,7 @@ struct CurveSinks {
 template <int Order, bool Rational, int Degree>
 struct CurveKernel {
   static constexpr int kNumbers = Rational ? 4 : 3;
-  static constexpr int kGroups = Order == 0 ? 2 : 1;
+  static constexpr int kGroups = 1;
 
   // Parameters in one piece. False where the denominator vanishes.
   static bool run(const CurvePieces& c, std::int64_t span, const double* t, std::size_t count, std::size_t at,
@@ -39,13 +36,7 @@ struct CurveKernel {
     for (std::size_t i = 0; i < count; i += kStep) {
       Group<kGroups> x;
       for (int b = 0; b < kGroups; ++b) {
-        const std::size_t from = i + static_cast<std::size_t>(b) * kLanes;
-        const V at_t = from + kLanes <= count ? hn::LoadU(D(), t + from)
-                       : from < count
-                           ? hn::IfThenElse(hn::FirstN(D(), count - from),
-                                            hn::MaskedLoad(hn::FirstN(D(), count - from), D(), t + from), centre)
-                           : centre;
-        x.g[b] = hn::Mul(hn::Sub(at_t, centre), scale_t);
+        x.g[b] = local_lanes(t, i + static_cast<std::size_t>(b) * kLanes, count, centre, scale_t);
       }
       Horner<Order, Value> h;
       if constexpr (Degree >= 0) {
@@ -57,7 +48,7 @@ struct CurveKernel {
       CurveJet<Order, Value> jet = curve_jet<Order>(h, factor);
       if constexpr (Rational) {
         for (int b = 0; b < kGroups; ++b)
-          vanishing = hn::Or(vanishing, hn::Not(hn::Ge(hn::Abs(jet.d[0].c[b][3].v), hn::Set(D(), kSmallestWeight))));
+          vanishing = hn::Or(vanishing, vanishes(jet.d[0].c[b][3].v, i + b * kLanes, count));
         jet = quotient<Order>(jet);
       }
       for (int b = 0; b < kGroups; ++b) {

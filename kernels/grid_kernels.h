@@ -63,7 +63,7 @@ struct GridKernel {
       }
       SurfaceJet<Order, Value> jet = surface_jet<Order>(rows, factor_u, factor_v);
       if constexpr (Rational) {
-        vanishing = hn::Or(vanishing, vanishes(jet.d[0].c[0][3].v));
+        vanishing = hn::Or(vanishing, vanishes(jet.d[0].c[0][3].v, i, count));
         jet = quotient<Order>(jet);
       }
       put_lanes<Order>(out, jet, 0, at + i, count - i, undefined);

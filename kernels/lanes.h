@@ -40,6 +40,17 @@ PATCHPROOF_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); 
 PATCHPROOF_INLINE Lanes fma(Lanes a, Lanes b, Lanes c) { return hn::MulAdd(a.v, b.v, c.v); }
 PATCHPROOF_INLINE Lanes reciprocal(Lanes a) { return hn::Div(hn::Set(D(), 1.0), a.v); }
 
+// The first `count` numbers (fewer than kLanes), 0 in the other lanes. Nothing beyond them is read.
+PATCHPROOF_INLINE V load_some(const double* from, std::size_t count) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
+  return hn::MaskedLoad(hn::FirstN(D(), count), D(), from);
+#else
+  HWY_ALIGN double numbers[kLanes] = {};
+  for (std::size_t i = 0; i < count; ++i) numbers[i] = from[i];
+  return hn::Load(D(), numbers);
+#endif
+}
+
 template <int B>
 struct Group {
   Lanes g[B];

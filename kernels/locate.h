@@ -23,6 +23,23 @@ inline std::size_t count_inside(const Axis& axis, const double* t, std::size_t c
   return i;
 }
 
+// Local coordinates of kLanes parameters; those beyond the end get the centre.
+PATCHPROOF_INLINE V local_lanes(const double* t, std::size_t from, std::size_t count, V centre, V scale) {
+  if (from + kLanes <= count) return hn::Mul(hn::Sub(hn::LoadU(D(), t + from), centre), scale);
+  if (from >= count) return hn::Zero(D());
+  const auto valid = hn::FirstN(D(), count - from);
+  return hn::Mul(hn::IfThenElseZero(valid, hn::Sub(load_some(t + from, count - from), centre)), scale);
+}
+
+// |w| below this (weights are scaled to at most 1) is taken for a zero of the denominator.
+constexpr double kSmallestWeight = 0x1p-900;
+// Of lanes that hold parameters from, from + 1, …, those before `count`.
+PATCHPROOF_INLINE auto vanishes(V weight, std::size_t from, std::size_t count) {
+  const std::size_t left = from < count ? count - from : 0;
+  const auto valid = hn::FirstN(D(), left < static_cast<std::size_t>(kLanes) ? left : kLanes);
+  return hn::AndNot(hn::Ge(hn::Abs(weight), hn::Set(D(), kSmallestWeight)), valid);
+}
+
 // Steps: a constant, or −1: axis.steps.
 template <int Steps>
 void locate_with(const Axis& axis, bool from_left, const double* t, std::size_t count, std::int64_t* span, double* x) {
@@ -38,7 +55,8 @@ void locate_with(const Axis& axis, bool from_left, const double* t, std::size_t 
 }
 // REQUIRES parameters in the domain, count ≤ kTile. One at a time: a few dependent loads from small tables each, which
 // processors overlap well; their gather instructions are slower where they are microcode.
-inline void locate(const Axis& axis, bool from_left, const double* t, std::size_t count, std::int64_t* span, double* x) {
+inline void locate(const Axis& axis, bool from_left, const double* t, std::size_t count, std::int64_t* span,
+                   double* x) {
   switch (axis.steps) {
     case 0: return locate_with<0>(axis, from_left, t, count, span, x);
     case 1: return locate_with<1>(axis, from_left, t, count, span, x);

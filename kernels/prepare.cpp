@@ -21,7 +21,7 @@ constexpr int kLargestExponent = 500;
 constexpr double kComparableWeights = 0x1p-500;
 
 Error bad_number(std::string where, std::string message, double value) {
-  return Error{ErrorCode::bad_number, std::move(where), std::move(message), to_text(value)};
+  return Error{ErrorCode::bad_number, std::move(where), std::move(message), number_text(value)};
 }
 
 std::optional<Error> first_not_finite(std::span<const double> numbers, const char* name) {
@@ -47,9 +47,7 @@ std::optional<Error> wrong_count(const char* name, std::size_t have, std::size_t
 }
 
 // index(t) as locate.h computes it.
-std::int64_t bucket_of(const Axis& a, double t) {
-  return static_cast<std::int64_t>((t - a.begin) * a.per_unit);
-}
+std::int64_t bucket_of(const Axis& a, double t) { return static_cast<std::int64_t>((t - a.begin) * a.per_unit); }
 
 void make_buckets(Axis& a) {
   constexpr int kMostSteps = 2;
@@ -57,15 +55,14 @@ void make_buckets(Axis& a) {
     if (buckets < 2 * a.count) continue;
     a.per_unit = buckets / (a.end - a.begin);
     a.first.assign(static_cast<std::size_t>(buckets) + 2, 0);
-    std::vector<std::int64_t> last(a.first.size(), 0);
-    for (int s = 1; s < a.count; ++s) {
-      const std::int64_t b = bucket_of(a, a.right[s]);
-      for (std::size_t k = b; k < last.size() && last[k] < s; ++k)
-        last[k] = s;  // spans are in order: each is the largest
-      for (std::size_t k = b + 1; k < a.first.size() && a.first[k] < s; ++k) a.first[k] = s;
-    }
+    // first[b]: the last span that begins in an earlier bucket. Those that begin in bucket b are the steps.
     a.steps = 0;
-    for (std::size_t k = 0; k < last.size(); ++k) a.steps = std::max(a.steps, static_cast<int>(last[k] - a.first[k]));
+    int s = 0;
+    for (std::size_t b = 0; b < a.first.size(); ++b) {
+      a.first[b] = s;
+      while (s + 1 < a.count && bucket_of(a, a.right[s + 1]) == static_cast<std::int64_t>(b)) ++s;
+      a.steps = std::max(a.steps, static_cast<int>(s - a.first[b]));
+    }
     if (a.steps <= kMostSteps) return;
   }
 }
@@ -160,6 +157,10 @@ void keep_bounds(const Jet& jet, int count, PieceBounds& out) {
 
 }  // namespace
 
+std::string number_text(double x) {
+  return std::isfinite(x) ? to_text(x) : std::isnan(x) ? "NaN" : x > 0 ? "infinity" : "-infinity";
+}
+
 Result<SurfacePieces> prepare(const SurfaceData& data) {
   const auto knots_u = checked_knots(data.degree_u, data.knots_u, "knots_u");
   if (!knots_u) return knots_u.error();
@@ -232,8 +233,6 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
           }
           // The fourth number of a piece without weights: the term of its pointwise bound.
           if (!s.rational) high[at + 3] = (gamma(3 * (i + j) + 3) * largest + largest_error) * kBoundSlack + kUnderflow;
-          if (i == 1 && j == 0) largest_du = std::max(largest_du, largest * s.u.scale[a]);
-          if (i == 0 && j == 1) largest_dv = std::max(largest_dv, largest * s.v.scale[b]);
         }
       for (int k = 0; k < numbers; ++k)
         bounds.compensated[k] = compensated_error(p + q + 2, sum_of_moduli[k], sum_of_errors[k]);
@@ -254,7 +253,15 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
       const auto jet = surface_jet<2>(sums, PowerOfTwo(s.u.scale[a]), PowerOfTwo(s.v.scale[b]));
       bounds.numerator_error = jet.d[0].coordinate.error;
       bounds.weight_error = jet.d[0].weight.error;
-      keep_bounds(s.rational ? quotient<2>(jet) : jet, 6, bounds);
+      const auto affine = s.rational ? quotient<2>(jet) : jet;
+      keep_bounds(affine, 6, bounds);
+      // The size of S_u: its bound, or without one (a denominator near zero) that of the numerator.
+      const auto size = [&](int m) {
+        const double bound = affine.d[m].coordinate.size;
+        return std::isfinite(bound) ? bound : jet.d[m].coordinate.size;
+      };
+      largest_du = std::max(largest_du, size(1));
+      largest_dv = std::max(largest_dv, size(2));
     }
   }
   const auto near_one = [](double size) {

@@ -2,6 +2,8 @@
 // From control points and knots to pieces.h.
 #pragma once
 
+#include <string>
+
 #include "kernels/pieces.h"
 #include "patchproof/patch/evaluate_batch.h"
 
@@ -9,5 +11,8 @@ namespace patchproof::kernels {
 
 Result<SurfacePieces> prepare(const SurfaceData& data);
 Result<CurvePieces> prepare(const CurveData& data);
+
+// For messages: also numbers that are none.
+std::string number_text(double x);
 
 }  // namespace patchproof::kernels

@@ -147,8 +147,8 @@ PATCHPROOF_INLINE void unit_normal(const Lanes (&du)[3], const Lanes (&dv)[3], c
   n[1] = minor(2, 0);
   n[2] = minor(0, 1);
   const Lanes square = fma(n[0], n[0], fma(n[1], n[1], n[2] * n[2]));
-  // Below 2^-900 the square has lost digits: no direction.
-  const auto defined = hn::Gt(square.v, hn::Set(D(), 0x1p-900));
+  // Below 2^-900 the square has lost digits, above 2^1000 a minor may have overflowed: no direction.
+  const auto defined = hn::And(hn::Gt(square.v, hn::Set(D(), 0x1p-900)), hn::Lt(square.v, hn::Set(D(), 0x1p1000)));
   const V inverse = hn::Div(hn::Set(D(), 1.0), hn::Sqrt(square.v));
   for (int k = 0; k < 3; ++k) n[k] = hn::IfThenElseZero(defined, hn::Mul(n[k].v, inverse));
 }

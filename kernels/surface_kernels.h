@@ -47,16 +47,6 @@ PATCHPROOF_INLINE void put_lanes(const SurfaceSinks& out, const Jet& jet, int gr
   }
 }
 
-// Local coordinates of kLanes parameters; those beyond the end get the centre.
-PATCHPROOF_INLINE V local_lanes(const double* t, std::size_t from, std::size_t count, V centre, V scale) {
-  if (from + kLanes <= count) return hn::Mul(hn::Sub(hn::LoadU(D(), t + from), centre), scale);
-  if (from >= count) return hn::Zero(D());
-  const auto valid = hn::FirstN(D(), count - from);
-  return hn::Mul(hn::IfThenElseZero(valid, hn::Sub(hn::MaskedLoad(valid, D(), t + from), centre)), scale);
-}
-
-PATCHPROOF_INLINE auto vanishes(V weight) { return hn::Not(hn::Ge(hn::Abs(weight), hn::Set(D(), kSmallestWeight))); }
-
 // Takes the parameters tile by tile: run(span_u, span_v, u, v, count, at) for those in one piece, scattered(span_u, span_v,
 // x, y, count, at) for the others; both say whether all denominators were good.
 template <class Run, class Scattered>
@@ -148,7 +138,8 @@ struct SurfaceKernel {
       SurfaceJet<Order, Value> jet = surface_jet<Order>(rows, factor_u, factor_v);
       if constexpr (Rational) {
 #pragma GCC unroll 4
-        for (int b = 0; b < kGroups; ++b) vanishing = hn::Or(vanishing, vanishes(jet.d[0].c[b][3].v));
+        for (int b = 0; b < kGroups; ++b)
+          vanishing = hn::Or(vanishing, vanishes(jet.d[0].c[b][3].v, i + b * kLanes, count));
         jet = quotient<Order>(jet);
       }
 #pragma GCC unroll 4
@@ -167,7 +158,8 @@ struct SurfaceKernel {
     const int p = kFixed ? DegreeU : s.u.degree, q = kFixed ? DegreeV : s.v.degree;
     const std::size_t row_length = kFixed ? 8 * (DegreeU + 1) : s.row;
     bool good = true;
-    HWY_ALIGN double du[3][kTile], dv[3][kTile];  // for the normals
+    HWY_ALIGN double du[3][kTile];  // for the normals
+    HWY_ALIGN double dv[3][kTile];
     for (std::size_t i = 0; i < count; ++i) {
       const double* coefficients = s.coefficients(span_u[i], span_v[i]);
       const Scalar local_x(x[i]), local_y(y[i]);
@@ -227,11 +219,10 @@ struct SurfaceKernel {
                           const SurfaceSinks& out, std::size_t& undefined) {
     for (std::size_t i = 0; i < count; i += kLanes) {
       const int valid = count - i < static_cast<std::size_t>(kLanes) ? static_cast<int>(count - i) : kLanes;
-      const auto mask = hn::FirstN(D(), static_cast<std::size_t>(valid));
       Lanes a[3], b[3], n[3];
       for (int k = 0; k < 3; ++k) {
-        a[k] = hn::MaskedLoad(mask, D(), du[k] + i);
-        b[k] = hn::MaskedLoad(mask, D(), dv[k] + i);
+        a[k] = hn::Load(D(), du[k] + i);
+        b[k] = hn::Load(D(), dv[k] + i);
       }
       unit_normal(a, b, out.normal_scale, n);
       undefined += undefined_among(n, valid);

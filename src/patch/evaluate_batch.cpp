@@ -25,7 +25,9 @@ kernels::SurfaceCall call_of(const SurfaceBatchOptions& options) {
   return call;
 }
 
-std::string describe_uv(double u, double v) { return "(u, v) = (" + batch::text(u) + ", " + batch::text(v) + ")"; }
+std::string describe_uv(double u, double v) {
+  return "(u, v) = (" + kernels::number_text(u) + ", " + kernels::number_text(v) + ")";
+}
 
 std::size_t first_outside(const kernels::Axis& axis, std::span<const double> t) {
   return static_cast<std::size_t>(
@@ -34,7 +36,7 @@ std::size_t first_outside(const kernels::Axis& axis, std::span<const double> t) 
 
 Error outside(const char* name, std::size_t i, double t) {
   return {ErrorCode::outside_domain, std::string(name) + "[" + std::to_string(i) + "]",
-          "the parameter lies outside the domain", batch::text(t)};
+          "the parameter lies outside the domain", kernels::number_text(t)};
 }
 
 // set(call, begin): where the results of a share go.

@@ -27,7 +27,7 @@ Result<BatchSummary> BatchCurve::evaluate(std::span<const double> t, const Curve
                        options.side == Side::left, t.data() + begin, count);
   };
   return batch::run(t.size(), batch::kShare, options.threads, part,
-                    [&](std::size_t i) { return "t = " + batch::text(t[i]); });
+                    [&](std::size_t i) { return "t = " + kernels::number_text(t[i]); });
 }
 
 }  // namespace patchproof
