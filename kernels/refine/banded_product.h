@@ -159,8 +159,9 @@ HWY_INLINE void refine_columns(const Job& job, const Columns& c) {
   constexpr int kSize = Rational ? 4 : 3;
   const Band &u = job.u, &v = job.v;
   const int slots = ring_lines(u.taps), padded = padded_size(c.rows * kSize);
-  double *ring = job.scratch, *pair = ring + static_cast<std::size_t>(slots) * kLineSize;
-  const auto slot = [&](int line) HWY_ATTR { return ring + static_cast<std::size_t>(line & (slots - 1)) * kLineSize; };
+  const std::size_t apart = line_size(v, kSize);
+  double *ring = job.scratch, *pair = ring + slots * apart;
+  const auto slot = [&](int line) HWY_ATTR { return ring + (line & (slots - 1)) * apart; };
 
   const std::size_t line_size = static_cast<std::size_t>(v.group) * kSize, piece_size = u.group * line_size;
   const int piece_v = c.begin / v.group;

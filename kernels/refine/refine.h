@@ -20,7 +20,7 @@ struct Job {
   const double* points = nullptr;   // 3 numbers each
   const double* weights = nullptr;  // or none
   double* out = nullptr;            // 3 numbers each, 4 with weights
-  double* scratch = nullptr;        // scratch_size(u.taps, v.taps) doubles, fastest at a multiple of 64 bytes
+  double* scratch = nullptr;        // scratch_size(*this) doubles, fastest at a multiple of 64 bytes
   const double** lines = nullptr;   // room for u.taps
 };
 
@@ -36,9 +36,16 @@ constexpr int ring_lines(int taps) {
 }
 // A piece of a line begins at a multiple of 8 numbers.
 constexpr int padded_size(int numbers) { return (numbers + 7) / 8 * 8; }
-constexpr int kLineSize = 8 * kTileRows + 16;  // numbers, with room for a vector behind the last
-constexpr std::size_t scratch_size(int taps_u, int taps_v) {
-  return static_cast<std::size_t>(ring_lines(taps_u)) * kLineSize + std::size_t{8} * tile_points(taps_v);
+// The longest refined line of a tile, with room for a vector behind its end. `size`: 3 or 4 numbers for each point.
+constexpr int line_size(const Band& v, int size) {
+  const int tile = v.rows < kTileRows ? v.rows : kTileRows;
+  if (v.group > tile) return padded_size(tile * size) + 8;
+  return tile / v.group * padded_size(v.group * size) + 8;
+}
+constexpr std::size_t scratch_size(const Job& job) {
+  const int points = tile_points(job.v.taps) < job.count_v ? tile_points(job.v.taps) : job.count_v;
+  return static_cast<std::size_t>(ring_lines(job.u.taps)) * line_size(job.v, job.weights != nullptr ? 4 : 3) +
+         std::size_t{8} * points;
 }
 
 struct Table {

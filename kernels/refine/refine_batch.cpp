@@ -70,8 +70,7 @@ Result<SurfaceRefinement::Axis> SurfaceRefinement::insertion_axis(int degree, st
                    std::to_string(added[i])};
   std::vector<double> all(knots.begin(), knots.end());
   all.insert(all.end(), added.begin(), added.end());
-  std::sort(all.begin() + static_cast<std::ptrdiff_t>(knots.size()), all.end());
-  std::inplace_merge(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(knots.size()), all.end());
+  std::sort(all.begin(), all.end());
   const auto finer = KnotVector<double>::make_unchecked(degree, std::move(all));
   return Axis{refinement_band<double>(*old, finer), finer.knots(), 1};
 }
@@ -134,8 +133,6 @@ Result<RefinementBounds> SurfaceRefinement::apply(std::span<const double> points
   if (!(coordinate <= 0x1p1022 && weight <= 0x1p1022))
     return Error{ErrorCode::bad_number, "", "a coordinate or weight is not finite, or their products may overflow", ""};
 
-  const std::size_t scratch_size = refine_kernels::scratch_size(u.degree + 1, v.degree + 1);
-  const auto scratch = std::make_unique_for_overwrite<CacheLine[]>((scratch_size + 7) / 8);
   std::vector<const double*> lines(u.degree + std::size_t(1));
   refine_kernels::Job job;
   job.u = view(u, u_.pieces);
@@ -145,8 +142,9 @@ Result<RefinementBounds> SurfaceRefinement::apply(std::span<const double> points
   job.points = points.data();
   job.weights = weights.empty() ? nullptr : weights.data();
   job.out = out.data();
-  job.scratch = scratch[0].numbers;
   job.lines = lines.data();
+  const auto scratch = std::make_unique_for_overwrite<CacheLine[]>((refine_kernels::scratch_size(job) + 7) / 8);
+  job.scratch = scratch[0].numbers;
   table.refine(job);
 
   const int roundings = 6 * (u.degree + v.degree) + 2;
