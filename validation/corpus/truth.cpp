@@ -57,21 +57,28 @@ BsplineCurve<Rational, 4> exact_curve(const CurveData& d) {
 }
 
 SurfaceTruth exact_values(const BsplinePatch<Rational, 4>& patch, double u, double v, Side side, int derivatives) {
-  const PartialDerivatives<Rational, 3> s =
-      rational_derivatives(patch, from_double(u), from_double(v), derivatives, derivatives, side, side);
+  const PartialDerivatives<Rational, 4> h =
+      partial_derivatives(patch, from_double(u), from_double(v), derivatives, derivatives, side, side);
+  // Only k + l ≤ derivatives are wanted: each table of the quotient as small as it can be.
+  const auto quotient = [&](int order_u, int order_v) {
+    std::vector<Vec<Rational, 4>> table;
+    for (int k = 0; k <= order_u; ++k)
+      for (int l = 0; l <= order_v; ++l) table.push_back(h.at(k, l));
+    return rational_derivatives(PartialDerivatives<Rational, 4>(order_u, order_v, std::move(table)));
+  };
   SurfaceTruth out;
-  out.vectors[kPoint] = s.at(0, 0);
+  out.vectors[kPoint] = quotient(0, 0).at(0, 0);
   if (derivatives >= 1) {
-    out.vectors[kDu] = s.at(1, 0);
-    out.vectors[kDv] = s.at(0, 1);
+    out.vectors[kDu] = quotient(1, 0).at(1, 0);
+    out.vectors[kDv] = quotient(0, 1).at(0, 1);
     const ExactVector n = cross(out.vectors[kDu], out.vectors[kDv]);
     out.has_normal = n != ExactVector{};
     if (out.has_normal) out.normal = normalised(n);
   }
   if (derivatives >= 2) {
-    out.vectors[kDuu] = s.at(2, 0);
-    out.vectors[kDuv] = s.at(1, 1);
-    out.vectors[kDvv] = s.at(0, 2);
+    out.vectors[kDuu] = quotient(2, 0).at(2, 0);
+    out.vectors[kDuv] = quotient(1, 1).at(1, 1);
+    out.vectors[kDvv] = quotient(0, 2).at(0, 2);
   }
   return out;
 }
