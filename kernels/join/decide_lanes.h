@@ -98,9 +98,9 @@ unsigned take_short(const typename L::D (&x)[36], const Differences<L>& d, unsig
     if (i < 9) seen = see_rounding<L>(seen, flat(d.c)[i], x[i + 3], x[i]);
   }
   const unsigned lanes = wanted & L::without(seen);
-  take_short(flat(d.scaled_a), lanes, w.a);
-  take_short(flat(d.scaled_b), lanes, w.b);
-  take_short(flat(d.scaled_c), lanes, w.c);
+  take_short(flat(d.scaled_a), w.a);
+  take_short(flat(d.scaled_b), w.b);
+  take_short(flat(d.scaled_c), w.c);
   return lanes;
 }
 
@@ -113,15 +113,11 @@ unsigned take_long(const typename L::D (&x)[36], const Differences<L>& d, unsign
     if (i < 9) error_c[i] = difference_error<L>(flat(d.c)[i], x[i + 3], x[i]);
   }
   w.is_long = true;
-  const unsigned lanes = wanted & split_long(flat(d.a), flat(d.scaled_a), d.scale_a, kSplit, w.a) &
-                         split_long(flat(d.b), flat(d.scaled_b), d.scale_b, kSplit, w.b) &
-                         split_long(flat(d.c), flat(d.scaled_c), d.scale_c, kSplit, w.c) &
-                         add_errors(w.error_a, d.scale_a, kSplit, w.a) & add_errors(w.error_b, d.scale_b, kSplit, w.b) &
-                         add_errors(error_c, d.scale_c, kSplit, w.c);
-  keep(w.a, lanes);
-  keep(w.b, lanes);
-  keep(w.c, lanes);
-  return lanes;
+  return wanted & split_long(flat(d.a), flat(d.scaled_a), d.scale_a, kSplit, w.a) &
+         split_long(flat(d.b), flat(d.scaled_b), d.scale_b, kSplit, w.b) &
+         split_long(flat(d.c), flat(d.scaled_c), d.scale_c, kSplit, w.c) &
+         add_errors(w.error_a, d.scale_a, kSplit, w.a) & add_errors(w.error_b, d.scale_b, kSplit, w.b) &
+         add_errors(error_c, d.scale_c, kSplit, w.c);
 }
 
 template <bool Long, class L, class M>
@@ -219,17 +215,14 @@ unsigned take_whole(const typename L::D (&x)[36], const typename L::D (&w)[12], 
   const typename L::I seen = see_long<L>(L::no_bits(), x, rows.points, rows.scale_points);
   const unsigned lanes = wanted & L::without(see_long<L>(seen, w, rows.weights, rows.scale_weights));
   if (lanes == wanted) {
-    take_short(rows.points, lanes, out.points);
-    take_short(rows.weights, lanes, out.weights);
+    take_short(rows.points, out.points);
+    take_short(rows.weights, out.weights);
     return lanes;
   }
   out.is_long = true;
   out.split = cartesian ? kSplitOfProducts : kSplit;
-  const unsigned long_lanes = wanted & split_long(x, rows.points, rows.scale_points, out.split, out.points) &
-                              split_long(w, rows.weights, rows.scale_weights, out.split, out.weights);
-  keep(out.points, long_lanes);
-  keep(out.weights, long_lanes);
-  return long_lanes;
+  return wanted & split_long(x, rows.points, rows.scale_points, out.split, out.points) &
+         split_long(w, rows.weights, rows.scale_weights, out.split, out.weights);
 }
 
 template <bool Long, class L, class M>

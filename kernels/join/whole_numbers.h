@@ -30,9 +30,9 @@ typename L::I see_long(typename L::I seen, const typename L::D (&x)[Size], const
   return seen;
 }
 template <class L, int Size>
-void take_short(const typename L::D (&scaled)[Size], unsigned lanes, Whole<L, Size>& out) {
+void take_short(const typename L::D (&scaled)[Size], Whole<L, Size>& out) {
 #pragma GCC unroll 36
-  for (int i = 0; i < Size; ++i) out.high[i] = lanes == L::kAll ? scaled[i] : L::keep(scaled[i], lanes);
+  for (int i = 0; i < Size; ++i) out.high[i] = scaled[i];
 }
 
 // high = round(y), low = (y − high) 2^split, |low| ≤ 2^(split−1): the difference is exact, as high is one of the two whole
@@ -65,15 +65,7 @@ unsigned add_errors(const typename L::D (&error)[Size], const Scale<L>& scale, i
   }
   return whole;
 }
-template <class L, int Size>
-void keep(Whole<L, Size>& w, unsigned lanes) {
-  for (int i = 0; i < Size; ++i) {
-    w.high[i] = L::keep(w.high[i], lanes);
-    w.low[i] = L::keep(w.low[i], lanes);
-  }
-}
-
-// 2^this divides all numbers of all lanes: short ones, or long ones by their low parts.
+// 2^this divides all numbers of all lanes (of lanes that are not whole, what rounding leaves: then it may be less): short ones, or long ones by their low parts.
 template <class L, int Size>
 int common_zeros(const Whole<L, Size>& w, bool is_long, int split) {
   typename L::I bits = L::no_bits();

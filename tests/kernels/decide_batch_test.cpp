@@ -6,58 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
-#include "kernels/join/decide_table.h"
-#include "kernels/join/primes.h"
-#include "support/g1_joins.h"
-#include "support/g1_truth.h"
+#include "kernels/decide_support.h"
 #include "support/wild_numbers.h"
 
 namespace patchproof::test {
 namespace {
-
-using kernels::InstructionSet;
-
-std::vector<InstructionSet> sets() {
-  std::vector<InstructionSet> out;
-  for (const InstructionSet set :
-       {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512, InstructionSet::avx512_ifma})
-    if (kernels::is_available(set)) out.push_back(set);
-  return out;
-}
-
-std::vector<JoinDecision> decisions(const std::vector<BicubicJoinRows>& rows, InstructionSet set,
-                                    const std::vector<BicubicEdge>& edges = {}) {
-  std::vector<JoinDecision> out(rows.size());
-  kernels::decide_batch(rows, edges, out, set);
-  return out;
-}
-
-bool same_answer(const JoinDecision& a, const JoinDecision& b) { return a.c0 == b.c0 && a.c1 == b.c1 && a.g1 == b.g1; }
-
-// All sets answer as decide_join does. How many joins each rung of the vectors decided; empty without vectors.
-std::map<DecidedBy, int> expect_all_alike(const std::vector<BicubicJoinRows>& rows) {
-  std::map<DecidedBy, int> rungs;
-  const std::vector<JoinDecision> reference = decisions(rows, InstructionSet::portable);
-  for (const InstructionSet set : sets()) {
-    const std::vector<JoinDecision> answers = decisions(rows, set);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      EXPECT_TRUE(same_answer(answers[i], reference[i])) << kernels::name_of(set) << ", join " << i;
-      if (set == InstructionSet::portable) continue;
-      if (set == InstructionSet::avx2) ++rungs[answers[i].rung];
-      if (answers[i].rung == DecidedBy::modular && i % 8 == 0) {
-        const ExactAnswer truth = exact_answer(rows[i]);
-        EXPECT_EQ(answers[i].g1 == FixedG1::refuted, !truth.coplanar);
-        EXPECT_TRUE(truth.smooth || answers[i].g1 != FixedG1::proven_smooth);
-        EXPECT_EQ(answers[i].c1, truth.c1);
-      }
-    }
-  }
-  return rungs;
-}
-bool have_vectors() { return kernels::is_available(InstructionSet::avx2); }
 
 TEST(DecideBatch, Law2_FamiliesAreProven) {
   for (const G1Family& family : {kD24, kD53, kC1, kR53, kR106}) {
@@ -136,6 +91,48 @@ TEST(DecideBatch, Law2_LongNumbers) {
         EXPECT_GE(spoiled[DecidedBy::modular], bits > 40 ? 56 : 64);  // a tiny z makes tiny units in the last place
       }
     }
+}
+
+// Bits that differences of doubles lose: a coordinate of 2^-20 beside coordinates of 2^40, or all of them far apart from the
+// differences.
+TEST(DecideBatch, Law2_RoundedDifferences) {
+  WildNumbers random;
+  std::vector<BicubicJoinRows> planar, bent, apart;
+  for (int i = 0; i < 24; ++i) {
+    BicubicJoinRows rows;
+    const auto far = [&] { return std::ldexp(4 + random.below(4), 40); };
+    for (int j = 0; j < 4; ++j) {
+      const double x = far(), y = std::ldexp(j, 42);
+      rows.edge[j] = {x, y, x};
+      rows.behind_a[j] = {x - std::ldexp(1, 43), y, x - std::ldexp(1, 43)};
+      rows.behind_b[j] = {x + std::ldexp(1, 43), y, x + std::ldexp(1, 43)};
+    }
+    bent.push_back(
+        rows);  // z = x but for one point, whose x the differences lose: seen nowhere if they are taken as they are
+    bent.back().edge[i % 4] = {0x1p-20, rows.edge[i % 4][1], 0};
+    planar.push_back(rows);  // C1 by rounded differences only
+    planar.back().edge[i % 4] = {0x1p-20, rows.edge[i % 4][1], 0x1p-20};
+    for (auto* side : {&planar.back().behind_a, &planar.back().behind_b})
+      (*side)[i % 4] = {side == &planar.back().behind_a ? -0x1p43 : 0x1p43, rows.edge[i % 4][1],
+                        side == &planar.back().behind_a ? -0x1p43 : 0x1p43};
+    apart.push_back(rows);  // in a plane z = 2^-90: too long for decide_fixed_g1
+    for (auto* row : {&apart.back().edge, &apart.back().behind_a, &apart.back().behind_b})
+      for (auto& point : *row) point[2] = 0x1p-90;
+  }
+  auto rungs = expect_all_alike(bent);
+  for (const BicubicJoinRows& rows : bent) EXPECT_EQ(exact_answer(rows).coplanar, false);
+  if (have_vectors()) {
+    EXPECT_EQ(rungs[DecidedBy::modular], 24);
+  }
+  expect_all_alike(planar);
+  for (const InstructionSet set : sets()) {
+    for (const JoinDecision& d : decisions(bent, set)) EXPECT_EQ(d.g1, FixedG1::refuted);
+    for (const JoinDecision& d : decisions(planar, set)) {
+      EXPECT_EQ(d.g1, FixedG1::proven_smooth);
+      EXPECT_FALSE(d.c1);
+    }
+    for (const JoinDecision& d : decisions(apart, set)) EXPECT_EQ(d.g1, std::nullopt);
+  }
 }
 
 // Rows of every kind: G1 and not, weighted and not, degenerate, wild sizes, weights of zero, numbers too long.
@@ -236,103 +233,6 @@ TEST(DecideBatch, Law1_SecondEdges) {
       ASSERT_EQ(answers[i].c0, exact_answer(rows[i], &edges[i]).c0);
     }
   }
-}
-
-// ---- residues ------------------------------------------------------------------------------------------------------
-
-TEST(DecideResidues, PrimesArePrime) {
-  const auto check = [](const auto& below, int bits) {
-    for (std::size_t i = 0; i < std::size(below); ++i) {
-      const Integer p = (Integer(1) << bits) - Integer(below[i]);
-      EXPECT_TRUE(mpz_probab_prime_p(p.backend().data(), 40) > 0);
-      if (i > 0) {
-        EXPECT_GT(below[i], below[i - 1]);
-      }
-    }
-    EXPECT_LT(below[std::size(below) - 1], 1u << 10);  // products of all are above 2^(n bits − 1)
-  };
-  check(kernels::kBelow28, 28);
-  check(kernels::kBelow47, 47);
-}
-
-// One coefficient of det, (a_y b_z − a_z b_y) c_x, is a product of the primes; the terms are far greater, so that the filter
-// sees nothing. Whole numbers a, b below 2^53 are found by the extended Euclidean algorithm.
-TEST(DecideResidues, ProductsOfPrimesAreNotZero) {
-  WildNumbers random;
-  const auto prime = [](int bits, int i) {
-    return (Integer(1) << bits) - Integer(bits == 28 ? kernels::kBelow28[i] : kernels::kBelow47[i]);
-  };
-  std::vector<std::pair<Integer, Integer>> products{{1, 1}, {prime(47, 0), 1}, {prime(47, 0), prime(47, 1)}};
-  for (int i = 0; i < 3; ++i)
-    products.push_back({prime(28, i), 1}), products.push_back({prime(28, i), prime(28, i + 1)});
-  products.push_back({prime(28, 0) * prime(28, 1), 1});
-  products.push_back({prime(28, 0) * prime(28, 1), prime(28, 2)});
-  products.push_back({prime(28, 2) * prime(28, 3), prime(28, 1)});
-  int modular = 0, refuted = 0, all = 0;
-  for (const auto& [minor, tangent] : products)
-    for (int repeat = 0; repeat < 10; ++repeat) {
-      // a_y b_z − a_z b_y = minor with random a.
-      const Integer ay = (Integer(1) << 52) - Integer(1) - random.integer(50) / 2,
-                    az = (Integer(1) << 51) + random.integer(50);
-      Integer g, s, t;
-      mpz_gcdext(g.backend().data(), s.backend().data(), t.backend().data(), ay.backend().data(), az.backend().data());
-      if (g != 1) continue;
-      // (b_z, b_y) = minor · (s, −t) + k · (az, ay), reduced.
-      Integer bz = s * minor, by = -t * minor, k;
-      mpz_fdiv_q(k.backend().data(), bz.backend().data(), az.backend().data());
-      bz -= k * az, by -= k * ay;
-      ASSERT_EQ(Integer(ay * bz - az * by), minor);
-      BicubicJoinRows rows;
-      const auto number = [](const Integer& z) { return mpz_get_d(z.backend().data()); };
-      for (int i = 0; i < 4; ++i) rows.edge[i] = rows.behind_a[i] = rows.behind_b[i] = {number(tangent) * i, 0, 0};
-      const int at = random.below(4);
-      rows.behind_a[at][1] = number(ay), rows.behind_a[at][2] = number(az);
-      rows.behind_b[at][1] = number(by), rows.behind_b[at][2] = number(bz);
-      for (const InstructionSet set : sets()) {
-        const JoinDecision d = decisions({rows}, set)[0];
-        ++all;
-        refuted += d.g1 == FixedG1::refuted;
-        modular += d.rung == DecidedBy::modular;
-      }
-    }
-  EXPECT_GT(all, 50);
-  EXPECT_EQ(refuted, all);
-  if (have_vectors()) {
-    EXPECT_GT(modular, all / 2);
-  }
-}
-
-// Differences of (p ± 1) / 2 modulo the first prime: remainders, and so all numbers, at the ends of their ranges.
-TEST(DecideResidues, RemainderAtTheEndsOfTheirRange) {
-  WildNumbers random;
-  int zero = 0, nonzero = 0;
-  for (const double p : {0x1p28 - kernels::kBelow28[0], 0x1p47 - kernels::kBelow47[0]})
-    for (int i = 0; i < 400; ++i) {
-      std::vector<BicubicJoinRows> joins(1);
-      BicubicJoinRows& rows = joins[0];
-      const bool weighted = i % 4 == 3;
-      const auto half = [&] {
-        const double turns = p < 0x1p30 ? random.below(1 << 20) : random.below(16);
-        return (random.below(8) == 0 ? (p + 1) / 2 : (p - 1) / 2) + p * turns;
-      };
-      for (int j = 0; j < 4; ++j)
-        for (int k = 0; k < 3; ++k) {
-          rows.edge[j][k] = weighted ? half() : j == 0 ? 0 : rows.edge[j - 1][k] + half();
-          const double a = half();
-          rows.behind_a[j][k] = rows.edge[j][k] + a;
-          rows.behind_b[j][k] = rows.edge[j][k] + (i % 2 ? a : -a);
-        }
-      if (weighted) {
-        rows.weights.emplace();
-        for (auto& row : *rows.weights)
-          for (int j = 0; j < 4; ++j) row[j] = j == 0 ? (p - 1) / 2 : (*rows.weights)[0][0] + p * j;
-      }
-      if (i % 8 >= 6) rows.behind_b[i % 4][0] += 1;
-      ASSERT_NO_FATAL_FAILURE(expect_all_alike(joins));
-      (decisions(joins, kernels::best_instruction_set())[0].g1 == FixedG1::refuted ? nonzero : zero)++;
-    }
-  EXPECT_GT(zero, 300);
-  EXPECT_GT(nonzero, 100);
 }
 
 TEST(DecideBatch, Contracts) {
