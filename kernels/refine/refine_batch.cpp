@@ -2,6 +2,7 @@
 #include "patchproof/patch/refine_batch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -68,9 +69,14 @@ Result<SurfaceRefinement::Axis> SurfaceRefinement::insertion_axis(int degree, st
     if (!old->in_domain(added[i]))
       return Error{ErrorCode::outside_domain, "new knot " + std::to_string(i), "a new knot lies outside the domain",
                    std::to_string(added[i])};
-  std::vector<double> all(knots.begin(), knots.end());
-  all.insert(all.end(), added.begin(), added.end());
-  std::sort(all.begin(), all.end());
+  std::vector<double> sorted;
+  if (!std::is_sorted(added.begin(), added.end())) {
+    sorted.assign(added.begin(), added.end());
+    std::sort(sorted.begin(), sorted.end());
+    added = sorted;
+  }
+  std::vector<double> all(knots.size() + added.size());
+  std::merge(knots.begin(), knots.end(), added.begin(), added.end(), all.begin());
   const auto finer = KnotVector<double>::make_unchecked(degree, std::move(all));
   return Axis{refinement_band<double>(*old, finer), finer.knots(), 1};
 }
@@ -143,8 +149,11 @@ Result<RefinementBounds> SurfaceRefinement::apply(std::span<const double> points
   job.weights = weights.empty() ? nullptr : weights.data();
   job.out = out.data();
   job.lines = lines.data();
-  const auto scratch = std::make_unique_for_overwrite<CacheLine[]>((refine_kernels::scratch_size(job) + 7) / 8);
-  job.scratch = scratch[0].numbers;
+  const std::size_t scratch_lines = (refine_kernels::scratch_size(job) + 7) / 8;
+  std::array<CacheLine, 256> here;  // enough for nets of usual width
+  std::unique_ptr<CacheLine[]> there;
+  if (scratch_lines > here.size()) there = std::make_unique_for_overwrite<CacheLine[]>(scratch_lines);
+  job.scratch = (there ? there[0] : here[0]).numbers;
   table.refine(job);
 
   const int roundings = 6 * (u.degree + v.degree) + 2;

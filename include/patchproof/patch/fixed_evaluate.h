@@ -25,7 +25,7 @@
 //           0, …, 5 or a whole number takes more than 255 bits; a parameter is empty when it is not accepted as above;
 //           evaluate never is, except where the denominator vanishes;  (4) parameters outside [0, 1] are those of the
 //           polynomial;  (5) scaling all coordinates by a power of two scales the point.
-// COST      (p + 1)(q + 1) W L + (p + 1) W (W + L) word products for each coordinate, and about 4 p W + p W² for the factors. No
+// COST      (p + 1)(q + 1) W L + (p + 1) W (W + L) word products for each coordinate, about 4 p W + p W² for the factors. No
 //           heap, except in coordinate().
 // NEIGHBOURS bezier_patch.h, rational_patch.h (evaluate() over Rational: the oracle of the tests), evaluate_batch.h.
 // TEST      tests/patch/fixed_evaluate_test.cpp checks (1)–(5).

@@ -28,7 +28,8 @@
 // ERRORS    make…: bad_degree, wrong_count, decreasing_knots, empty_domain; bad_number: a knot is not finite, or their
 //           range overflows; outside_domain: a new knot is outside the domain or NaN.
 //           apply: wrong_count; bad_number: a number is not finite, or products w x may exceed 2^1022. Nothing is written.
-// COST      see validation/bench. apply allocates one block of working memory, whose size does not depend on the net's.
+// COST      see validation/bench. apply works in less than 80 KiB for degrees up to 6, whatever the size of the net; it
+//           allocates them once when they are more than 16 KiB.
 // NEIGHBOURS patch_knots.h, bezier_patch.h (the exact templates, the oracle of the tests), evaluate_batch.h.
 // TEST      tests/patch/refine_batch_test.cpp checks (1)–(5).
 #pragma once

@@ -35,6 +35,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "patchproof/spline/knot_ratio.h"
@@ -72,9 +75,9 @@ std::vector<P> apply_band(const RefinementBand<T>& band, const std::vector<P>& p
 
 namespace detail {
 
-// Step r of the blossom on the span that begins at *knot: r numbers b become r + 1.
-template <Ring T, OrderedField K>
-inline void blossom_step(const K* knot, int r, const K& argument, T* b) {
+// Step r of the blossom on the span that begins at *knot: r numbers b become r + 1. r: int, or a constant.
+template <Ring T, OrderedField K, class R>
+inline void blossom_step(const K* knot, R r, const K& argument, T* b) {
   T carried(0);
   for (int q = 0; q < r; ++q) {
     const K &low = knot[q + 1 - r], &high = knot[q + 1];
@@ -92,6 +95,23 @@ inline void blossom_step(const K* knot, int r, const K& argument, T* b) {
     }
   }
   b[r] = carried;
+}
+
+// The blossom at argument(1), …, argument(p) to `row`. P: the degree when known to the compiler, or 0.
+template <int P, Ring T, OrderedField K, class Argument>
+inline void blossom_row(const K* knot, int p, Argument argument, T* row) {
+  if constexpr (P > 0) {
+    std::array<T, P + 1> b;
+    b[0] = T(1);
+    [&]<int... R>(std::integer_sequence<int, R...>) {
+      (blossom_step(knot, std::integral_constant<int, R + 1>(), argument(R + 1), b.data()), ...);
+    }
+    (std::make_integer_sequence<int, P>());
+    std::move(b.begin(), b.end(), row);
+  } else {
+    row[0] = T(1);
+    for (int r = 1; r <= p; ++r) blossom_step(knot, r, argument(r), row);
+  }
 }
 
 template <Ring T, OrderedField K>
@@ -112,12 +132,10 @@ struct BandBuilder {
     next_row()[j - first] = T(1);
     band.first.push_back(first);
   }
-  // The blossom on span m at the p arguments of [begin, end), in this order.
-  template <class Iterator>
-  void blossom(int m, Iterator begin, Iterator end) {
-    T* b = next_row();
-    b[0] = T(1);
-    for (int r = 1; begin != end; ++begin, ++r) blossom_step(&old.knots()[m], r, *begin, b);
+  // The blossom on span m at argument(1), …, argument(p).
+  template <int P = 0, class Argument>
+  void blossom(int m, Argument argument) {
+    blossom_row<P>(old.knots().data() + m, band.degree, argument, next_row());
     band.first.push_back(m - band.degree);
   }
 
@@ -127,7 +145,6 @@ struct BandBuilder {
     const auto first_of = [](const KnotVector<K>& knots, const K& t) {
       return static_cast<int>(std::lower_bound(knots.knots().begin(), knots.knots().end(), t) - knots.knots().begin());
     };
-    const auto from = finer.knots().begin() + i + 1, to = from + p;
     const K &low = finer[i], &high = finer[i + p + 1];
     const bool right = !(low < old.domain_end());
     const K& t = right ? old.domain_end() : high;  // where the row's knots touch the domain
@@ -142,11 +159,24 @@ struct BandBuilder {
     }
     // The limit from inside the domain: copies of t first, then the knots outside, from the inner to the outer.
     if (right)
-      blossom(old.find_span(t, Side::left), from, to);
+      blossom(old.find_span(t, Side::left), [&](int r) -> const K& { return finer[i + r]; });
     else
-      blossom(old.find_span(t, Side::right), std::make_reverse_iterator(to), std::make_reverse_iterator(from));
+      blossom(old.find_span(t, Side::right), [&](int r) -> const K& { return finer[i + p + 1 - r]; });
   }
 };
+
+// build.operator()<P>() for the degree p, P = 0 when no loop is unrolled for it.
+template <class Build>
+auto for_degree(int p, Build build) {
+  switch (p) {
+    case 1: return build.template operator()<1>();
+    case 2: return build.template operator()<2>();
+    case 3: return build.template operator()<3>();
+    case 4: return build.template operator()<4>();
+    case 5: return build.template operator()<5>();
+    default: return build.template operator()<0>();
+  }
+}
 
 }  // namespace detail
 
@@ -167,45 +197,40 @@ bool is_refinement(const KnotVector<K>& old, const KnotVector<K>& finer) {
 template <Ring T, OrderedField K>
 RefinementBand<T> refinement_band(const KnotVector<K>& old, const KnotVector<K>& finer) {
   PATCHPROOF_REQUIRES(is_refinement(old, finer), "refinement_band: the new knots do not refine the old ones");
-  const int p = old.degree(), rows = finer.control_count();
-  const K *s = finer.knots().data(), *t = old.knots().data();
-  detail::BandBuilder<T, K> builder(old, rows);
-  int a = 0, m = p;
-  for (int i = 0; i < rows; ++i) {
-    // [s_a, s_{a+1}]: the first span of the domain among the knots of the row.
-    a = std::max(a, i);
-    while (a <= i + p && !(s[a] < s[a + 1] && old.domain_begin() <= s[a] && s[a + 1] <= old.domain_end())) ++a;
-    if (a > i + p) {
-      builder.row_without_influence(finer, i);
-      continue;
+  return detail::for_degree(old.degree(), [&]<int P>() {
+    const int p = old.degree(), rows = finer.control_count();
+    const K *s = finer.knots().data(), *t = old.knots().data();
+    detail::BandBuilder<T, K> builder(old, rows);
+    int a = 0, m = p;
+    for (int i = 0; i < rows; ++i) {
+      // [s_a, s_{a+1}]: the first span of the domain among the knots of the row.
+      a = std::max(a, i);
+      while (a <= i + p && !(s[a] < s[a + 1] && old.domain_begin() <= s[a] && s[a + 1] <= old.domain_end())) ++a;
+      if (a > i + p) {
+        builder.row_without_influence(finer, i);
+        continue;
+      }
+      while (!(s[a] < t[m + 1])) ++m;
+      // Outwards: s_{a+1}, …, s_{i+p}, then s_a, …, s_{i+1}.
+      const int right = i + p - a;
+      builder.template blossom<P>(m, [&](int r) -> const K& { return s[r <= right ? a + r : i + p + 1 - r]; });
     }
-    while (!(s[a] < t[m + 1])) ++m;
-    T* b = builder.next_row();
-    b[0] = T(1);
-    int r = 0;
-    for (int k = a + 1; k <= i + p; ++k) detail::blossom_step(t + m, ++r, s[k], b);
-    for (int k = a; k > i; --k) detail::blossom_step(t + m, ++r, s[k], b);
-    builder.band.first.push_back(m - p);
-  }
-  return std::move(builder.band);
+    return std::move(builder.band);
+  });
 }
 
 template <Ring T, OrderedField K>
 RefinementBand<T> bezier_band(const KnotVector<K>& knots) {
-  const int p = knots.degree();
-  int pieces = 0;
-  for (int m = p; m < knots.control_count(); ++m) pieces += knots[m] < knots[m + 1] ? 1 : 0;
-  detail::BandBuilder<T, K> builder(knots, static_cast<std::size_t>(pieces) * (p + 1));
-  for (int m = p; m < knots.control_count(); ++m) {
-    if (!(knots[m] < knots[m + 1])) continue;
-    for (int j = 0; j <= p; ++j) {
-      T* b = builder.next_row();
-      b[0] = T(1);
-      for (int r = 1; r <= p; ++r) detail::blossom_step(&knots[m], r, r <= j ? knots[m + 1] : knots[m], b);
-      builder.band.first.push_back(m - p);
-    }
-  }
-  return std::move(builder.band);
+  return detail::for_degree(knots.degree(), [&]<int P>() {
+    const int p = knots.degree();
+    int pieces = 0;
+    for (int m = p; m < knots.control_count(); ++m) pieces += knots[m] < knots[m + 1] ? 1 : 0;
+    detail::BandBuilder<T, K> builder(knots, static_cast<std::size_t>(pieces) * (p + 1));
+    for (int m = p; m < knots.control_count(); ++m)
+      for (int j = 0; j <= p && knots[m] < knots[m + 1]; ++j)
+        builder.template blossom<P>(m, [&](int r) -> const K& { return r <= j ? knots[m + 1] : knots[m]; });
+    return std::move(builder.band);
+  });
 }
 
 template <Ring T, class P>
