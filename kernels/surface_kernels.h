@@ -256,11 +256,13 @@ inline int order_of(const SurfaceOutput& out) {
 template <int Order, bool Rational, class F>
 Progress with_degrees(const SurfacePieces& s, F f) {
   if (s.u.degree == 3 && s.v.degree == 3) return f.template operator()<Order, Rational, 3, 3>();
-  if constexpr (!Rational && Order < 2) {
-    if (s.u.degree == 5 && s.v.degree == 5) return f.template operator()<Order, Rational, 5, 5>();
-    if (s.u.degree == 7 && s.v.degree == 7) return f.template operator()<Order, Rational, 7, 7>();
+  if constexpr (kLanes >= 4 && Order < 2) {  // narrow vectors gain less than the code costs
+    if (s.u.degree == 2 && s.v.degree == 2) return f.template operator()<Order, Rational, 2, 2>();
+    if constexpr (!Rational) {
+      if (s.u.degree == 5 && s.v.degree == 5) return f.template operator()<Order, Rational, 5, 5>();
+      if (s.u.degree == 7 && s.v.degree == 7) return f.template operator()<Order, Rational, 7, 7>();
+    }
   }
-  if (s.u.degree == 2 && s.v.degree == 2) return f.template operator()<Order, Rational, 2, 2>();
   return f.template operator()<Order, Rational, -1, -1>();
 }
 template <class F>
