@@ -290,6 +290,38 @@ std::vector<Vec<Rational, 4>> scaled_row(const std::vector<Vec<Rational, 4>>& ro
   return out;
 }
 
+// The points with all coordinates whole, and all weights: decimals and other fractions have a common denominator. Space is
+// scaled by it, and the homogeneous coordinate by its own.
+std::optional<BicubicJoinRows> cleared_rows(const std::vector<Vec<Rational, 4>>& edge,
+                                            const std::vector<Vec<Rational, 4>>& cross_a,
+                                            const std::vector<Vec<Rational, 4>>& cross_b, bool polynomial) {
+  const Rational third = Rational(1) / Rational(3);
+  std::array<std::vector<Vec<Rational, 4>>, 3> points{edge, edge, edge};
+  for (int i = 0; i < 4; ++i) {
+    points[1][i] = edge[i] + third * cross_a[i];
+    points[2][i] = edge[i] + third * cross_b[i];
+  }
+  std::array<Integer, 4> common{1, 1, 1, 1};
+  for (const auto& row : points)
+    for (const Vec<Rational, 4>& p : row)
+      for (int k = 0; k < 4; ++k) {
+        Integer& lcm = common[k < 3 ? 0 : 3];
+        mpz_lcm(lcm.backend().data(), lcm.backend().data(), mpq_denref(p[k].backend().data()));
+      }
+  common[1] = common[2] = common[0];
+  BicubicJoinRows rows;
+  rows.points = WeightedPoints::homogeneous;
+  std::array<std::array<double, 4>, 3> weights;
+  BicubicJoinRows::Row* to[] = {&rows.edge, &rows.behind_a, &rows.behind_b};
+  for (int r = 0; r < 3; ++r)
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 4; ++k)
+        if (!to_double(points[r][i][k] * Rational(common[k]), k < 3 ? (*to[r])[i][k] : weights[r][i]))
+          return std::nullopt;
+  if (!polynomial) rows.weights = weights;
+  return rows;
+}
+
 }  // namespace
 
 std::optional<BicubicJoinRows> bicubic_join_rows(const JoinPiece<Rational>& piece) {
@@ -323,7 +355,7 @@ std::optional<BicubicJoinRows> bicubic_join_rows(const JoinPiece<Rational>& piec
     if (!polynomial) rows.weights = weights;
     return rows;
   }
-  return std::nullopt;
+  return cleared_rows(edge, cross_a, cross_b, polynomial);
 }
 
 std::optional<FixedG1> decide_fixed_g1(const BicubicJoinRows& rows) {

@@ -67,8 +67,10 @@ enum class FixedG1 { proven_smooth, refuted, cannot_tell };
 // The two sides are REQUIRED to share the edge: that is C0, and given by the rows. Empty: not representable.
 std::optional<FixedG1> decide_fixed_g1(const BicubicJoinRows& rows);
 
-// The rows of a piece: E = X, A = X + c X_s, c > 0 constant, and so for B. Empty when a side is not of degree 3 along
-// the edge, when the sides' edges are not one row up to a constant factor, or when a number is no double.
+// The rows of a piece: E = X, A = X + c X_s, c > 0 constant, and so for B. Numbers that are no doubles are cleared of their
+// denominators: coordinates by one common factor, weights by another (decimals with few digits become short numbers).
+// Empty when a side is not of degree 3 along the edge, when the sides' edges are not one row up to a constant factor, or
+// when a number is no double then either.
 // ENSURES  (6) the rows join as the piece does.   REQUIRES the piece is C0.
 std::optional<BicubicJoinRows> bicubic_join_rows(const JoinPiece<Rational>& piece);
 
