@@ -93,6 +93,21 @@ TEST(DecideBatch, Law2_LongNumbers) {
     }
 }
 
+// Twice the weights behind one side: the same planes, twice the derivative.
+TEST(DecideBatch, Law1_C1SeesWeights) {
+  for (const G1Family& family : {kR53, kR106}) {
+    auto rows = make_g1_joins(family, 24);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (double& w : (*rows[i].weights)[1 + i % 2]) w *= 2;
+    expect_all_alike(rows);
+    for (const InstructionSet set : sets())
+      for (const JoinDecision& d : decisions(rows, set)) {
+        EXPECT_EQ(d.g1, FixedG1::proven_smooth);
+        EXPECT_FALSE(d.c1);
+      }
+  }
+}
+
 // Bits that differences of doubles lose: a coordinate of 2^-20 beside coordinates of 2^40, or all of them far apart from the
 // differences.
 TEST(DecideBatch, Law2_RoundedDifferences) {
@@ -110,6 +125,11 @@ TEST(DecideBatch, Law2_RoundedDifferences) {
     bent.push_back(
         rows);  // z = x but for one point, whose x the differences lose: seen nowhere if they are taken as they are
     bent.back().edge[i % 4] = {0x1p-20, rows.edge[i % 4][1], 0};
+    bent.push_back(bent.back());  // now only the edge's own differences lose it
+    for (int side = 0; side < 2; ++side) {
+      const double x = side == 0 ? -0x1p31 : 0x1p31, y = side == 0 ? 0x1p31 : 0;
+      (side == 0 ? bent.back().behind_a : bent.back().behind_b)[i % 4] = {0x1p-20 + x, rows.edge[i % 4][1] + y, x};
+    }
     planar.push_back(rows);  // C1 by rounded differences only
     planar.back().edge[i % 4] = {0x1p-20, rows.edge[i % 4][1], 0x1p-20};
     for (auto* side : {&planar.back().behind_a, &planar.back().behind_b})
@@ -122,7 +142,7 @@ TEST(DecideBatch, Law2_RoundedDifferences) {
   auto rungs = expect_all_alike(bent);
   for (const BicubicJoinRows& rows : bent) EXPECT_EQ(exact_answer(rows).coplanar, false);
   if (have_vectors()) {
-    EXPECT_EQ(rungs[DecidedBy::modular], 24);
+    EXPECT_EQ(rungs[DecidedBy::modular], 48);
   }
   expect_all_alike(planar);
   for (const InstructionSet set : sets()) {

@@ -45,7 +45,7 @@ TEST(DecideResidues, ProductsOfPrimesAreNotZero) {
                                                   {prime(47, 0), 1},
                                                   {prime(47, 0), prime(47, 1)},
                                                   {prime(47, 1), prime(47, 0)}};
-  std::map<DecidedBy, int> rungs;
+  std::map<DecidedBy, int> rungs, rungs_weighted;
   for (const auto& [minor, tangent] : products)
     for (int found = 0; found < 6;) {
       const Integer ay = size(), az = size();
@@ -59,23 +59,36 @@ TEST(DecideResidues, ProductsOfPrimesAreNotZero) {
       if (bz < az / 4 * 3) continue;
       ++found;
       ASSERT_EQ(Integer(ay * bz - az * by), minor);
-      BicubicJoinRows rows;
       const auto number = [](const Integer& z) { return mpz_get_d(z.backend().data()); };
-      for (int i = 0; i < 4; ++i) {
-        const double x = number(tangent) * i;
-        rows.edge[i] = {x, 0, 0};
-        rows.behind_a[i] = {x, number(ay), number(az)};
-        rows.behind_b[i] = {x, number(by), number(bz)};
-      }
-      for (const InstructionSet set : sets()) {
-        const JoinDecision d = decisions({rows}, set)[0];
-        EXPECT_EQ(d.g1, FixedG1::refuted) << kernels::name_of(set) << " " << minor << " " << tangent;
-        if (set != InstructionSet::portable) ++rungs[d.rung];
-      }
+      const std::array<double, 3> a{0, number(ay), number(az)}, b{0, number(by), number(bz)};
+      for (const int end :
+           {-1, 0, 3})  // everywhere, or so that one coefficient of det is not zero: the first or the last
+        for (const bool weighted : {false, true}) {
+          BicubicJoinRows rows;
+          for (int i = 0; i < 4; ++i) {
+            rows.edge[i][0] = end < 0 ? number(tangent) * i : i == end ? number(tangent) : 0;
+            for (int k = 0; k < 3; ++k) {
+              const bool here = end < 0 || i == end;
+              rows.behind_a[i][k] = rows.edge[i][k] + (here ? a[k] : k == 0);
+              rows.behind_b[i][k] = rows.edge[i][k] + (here ? b[k] : k == 0);
+            }
+          }
+          if (weighted) rows.weights = {{{1, 1, 1, 1}, {2, 2, 2, 2}, {1, 1, 1, 1}}};
+          for (const int longer : {0, 20}) {
+            flatten(rows, longer);
+            for (const InstructionSet set : sets()) {
+              const JoinDecision d = decisions({rows}, set)[0];
+              EXPECT_EQ(d.g1, FixedG1::refuted)
+                  << kernels::name_of(set) << " " << minor << " " << tangent << " " << end;
+              if (set != InstructionSet::portable) ++(weighted ? rungs_weighted : rungs)[d.rung];
+            }
+          }
+        }
     }
   if (have_vectors()) {
     EXPECT_EQ(rungs.size(), 1u);
     EXPECT_GT(rungs[DecidedBy::modular], 0);
+    EXPECT_GT(rungs_weighted[DecidedBy::modular], 100);
   }
 }
 
