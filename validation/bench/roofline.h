@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "patchproof/instruction_set.h"
 
@@ -42,5 +43,8 @@ extern const RooflineTable kRooflinePortable;
 #if defined(__x86_64__)
 extern const RooflineTable kRooflineSse4, kRooflineAvx2, kRooflineAvx512;
 #endif
+
+// Those that this machine has, narrowest first.
+std::vector<const RooflineTable*> roofline_tables();
 
 }  // namespace patchproof::bench

@@ -12,19 +12,6 @@
 namespace patchproof::bench {
 namespace {
 
-std::vector<const RooflineTable*> tables() {
-  std::vector<const RooflineTable*> out;
-  for (const RooflineTable* t : {
-         &kRooflinePortable
-#if defined(__x86_64__)
-             ,
-             &kRooflineSse4, &kRooflineAvx2, &kRooflineAvx512
-#endif
-       })
-    if (is_available(t->set)) out.push_back(t);
-  return out;
-}
-
 const char* name_of(Stores s) {
   switch (s) {
     case Stores::separate: return "separate";
@@ -51,13 +38,26 @@ constexpr int kTraffic[][2] = {{2, 3},  {2, 9},  {2, 12}, {2, 18}, {0, 3}, {0, 9
 
 }  // namespace
 
+std::vector<const RooflineTable*> roofline_tables() {
+  std::vector<const RooflineTable*> out;
+  for (const RooflineTable* t : {
+         &kRooflinePortable
+#if defined(__x86_64__)
+             ,
+             &kRooflineSse4, &kRooflineAvx2, &kRooflineAvx512
+#endif
+       })
+    if (is_available(t->set)) out.push_back(t);
+  return out;
+}
+
 void register_roofline_benchmarks() {
-  for (const RooflineTable* t : tables()) {
+  for (const RooflineTable* t : roofline_tables()) {
     register_arithmetic("multiply_add", *t, t->multiply_add);
     register_arithmetic("divide", *t, t->divide);
     register_arithmetic("root", *t, t->root);
   }
-  const RooflineTable& widest = *tables().back();
+  const RooflineTable& widest = *roofline_tables().back();
   for (const auto& [in, out] : kTraffic)
     for (const Stores stores : kAllStores)
       benchmark::RegisterBenchmark(

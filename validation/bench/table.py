@@ -36,6 +36,8 @@ TARGETS = {
     "bspline_20x20/grid/first": ((("SISL", 8), ("OCCT", 18)), 60),
     "nurbs_20x20/grid/points": ((("SISL", 8), ("OCCT", 30)), 70),
     "nurbs_20x20/grid/first": ((("SISL", 8), ("OCCT", 18)), 60),
+    "bspline_20x20/refine_40x40/net": ((("SISL", 3),), None),
+    "bspline_20x20/extract/net": ((("SISL", 4.5),), None),
     "curve_100/sorted/points": ((("OCCT", 8),), 65),
     "curve_100/sorted/first": ((("OCCT", 8),), 65),
     "curve_100/scattered/points": ((("Eigen", 16),), None),
@@ -48,6 +50,7 @@ TARGETS = {
 
 
 ARRANGEMENTS, QUANTITIES = ["scattered", "sorted", "grid"], ["points", "first", "normals", "second"]
+METHODS = ("accurate", "exact_", "decide/", "roofline/")  # workloads that are no race
 
 
 def place(workload):
@@ -58,6 +61,19 @@ def place(workload):
         return names.index(name) if name in names else len(names)
 
     return "curve" in parts[0], parts[0], index(ARRANGEMENTS, parts[1]), index(QUANTITIES, parts[2]), workload
+
+# Where methods of our own are compared: (what the workload's name contains, the method, the other one, at most so many
+# times as long; below 1: so many times as fast)
+METHOD_TARGETS = [
+    ("bezier_3x3/accurate", "bounded", "bernstein", 1.4),
+    ("bezier_3x3/accurate", "interval", "bernstein", 2.5),
+    ("bezier_3x3/accurate", "compensated", "bernstein", 10),
+    ("bezier_3x3/accurate", "rounded", "OCCT", 1 / 2.5),
+    ("exact_", "fixed width", "scalar double", 20),
+    ("decide/D24", "whole", "OCCT", 1 / 90),
+    ("decide/D53", "whole", "OCCT", 1 / 90),
+    ("decide/R", "whole", "OCCT", 1 / 20),
+]
 
 
 class Row:
@@ -84,6 +100,12 @@ def read(paths):
     return rows
 
 
+def short(peer):
+    """OCCT 7.6.3 → OCCT; methods of our own keep their names."""
+    name, _, version = peer.partition(" ")
+    return name if version[:1].isdigit() else peer
+
+
 def by_workload(rows):
     """{workload: {peer: {variant: Row}}}. Benchmarks are named WORKLOAD|PEER/VARIANT."""
     table = {}
@@ -91,7 +113,7 @@ def by_workload(rows):
         workload, bar, contender = name.partition("|")
         if bar:
             peer, _, variant = contender.partition("/")
-            table.setdefault(workload, {}).setdefault(peer, {})[variant] = row
+            table.setdefault(workload, {}).setdefault(short(peer), {})[variant] = row
     return {w: dict(sorted(table[w].items())) for w in sorted(table, key=place)}
 
 
@@ -118,51 +140,74 @@ def roofline(table, row, instruction_set):
     return max(compute, min(best(v)[1].ns for v in stores.values()))
 
 
-def short(peer):
-    return peer.split(" ")[0]
+def contenders(table):
+    return [w for w in table if OURS in table[w] and not any(m in w for m in METHODS)]
 
 
 def race(table):
-    workloads = [w for w in table if OURS in table[w]]
+    workloads = contenders(table)
     peers = sorted({p for w in workloads for p in table[w] if p != OURS})
     print("| workload | ours ns (variant) | " + " | ".join(f"{p} ns" for p in peers) +
           " | over the best | target | % of roofline (target) | worst ulp | AVX2 ns (over the best) |")
     print("|" + "---|" * (len(peers) + 7))
     for w in workloads:
-        variant, ours = best(table[w][OURS])
-        times, cells = {}, []
-        for p in peers:
-            row = best(table[w].get(p))[1]
-            cells.append(f"{number(row.ns)} ({row.ns / ours.ns:.1f}×)" if row else "–")
-            if row:
-                times[p] = row.ns
+        # What a refinement needs beforehand belongs to its time, as with the peers.
+        mine = {v: r for v, r in table[w][OURS].items() if not v.endswith("prepared")}
+        variant, ours = best(mine)
+        times = {p: best(table[w][p])[1].ns for p in peers if p in table[w]}
         nearest = min(times, key=times.get) if times else None
+        cells = [f"{number(times[p])} ({times[p] / ours.ns:.1f}×)" if p in times else "–" for p in peers]
         targets, share = TARGETS.get(w, ((), None))
         marks = []
         for over, factor in targets:
-            chosen = [t for p, t in times.items() if over in ("all", short(p))]
+            chosen = [t for p, t in times.items() if over in ("all", p)]
             if chosen:
                 reached = min(chosen) / ours.ns
                 marks.append(f"{factor}× {'the best' if over == 'all' else over}: {reached:.1f}×"
                              f"{'' if reached >= factor else ' **missed**'}")
         limit = roofline(table, ours, variant.split(" ")[0])
         percent = f"{100 * limit / ours.ns:.0f} %" if limit else "–"
-        avx2 = best({v: r for v, r in table[w][OURS].items() if v.startswith("avx2")})[1]
+        avx2 = best({v: r for v, r in mine.items() if v.startswith("avx2")})[1]
         print(f"| {w} | {number(ours.ns)} ({variant}) | " + " | ".join(cells) +
-              f" | {f'{times[nearest] / ours.ns:.1f}× {short(nearest)}' if nearest else '–'}"
+              f" | {f'{times[nearest] / ours.ns:.1f}× {nearest}' if nearest else '–'}"
               f" | {'; '.join(marks) or '–'} | {percent}{f' ({share} %)' if share else ''}"
               f" | {ours.counters.get('ulp', float('nan')):.3g}"
               + (f" | {number(avx2.ns)}" + (f" ({times[nearest] / avx2.ns:.1f}×)" if nearest else "") if avx2 else " | –")
               + " |")
 
 
+def methods(table):
+    """Ways of ours beside each other and beside the peers."""
+    print("\n| workload | method | ns for each item | target | worst ulp |\n|---|---|---|---|---|")
+    for w in table:
+        if w.startswith("roofline/") or not any(m in w for m in METHODS):
+            continue
+        named = {f"{p}/{v}".rstrip("/"): row for p, variants in table[w].items() for v, row in variants.items()}
+        for name, row in sorted(named.items(), key=lambda item: item[1].ns):
+            marks = []
+            for where, method, other, most in METHOD_TARGETS:
+                if where not in w or not name.endswith(method):
+                    continue
+                # Bernstein's basis on the same instruction set; of the other targets the fastest of ours is meant.
+                words = name.partition("/")[2].split(" ")
+                own = [r.ns for n, r in named.items() if n.endswith(method) and not n.startswith(other)]
+                rivals = [r.ns for n, r in named.items()
+                          if n.startswith(other) and (other != "bernstein" or n.endswith("/" + words[0]))]
+                if rivals and (other == "bernstein" or row.ns == min(own)):
+                    took = row.ns / min(rivals)
+                    marks.append((f"at most {most:g}× {other}: {took:.2f}×" if most > 1 else
+                                  f"{1 / most:.3g}× faster than {other}: {1 / took:.1f}×") +
+                                 ("" if took <= most else " **missed**"))
+            ulp = row.counters.get("ulp")
+            print(f"| {w} | {name} | {number(row.ns)} | {'; '.join(marks) or '–'} | {'–' if ulp is None else f'{ulp:.3g}'} |")
+
+
 def errors(table):
     """What the peers' results were worth."""
     print("\n| workload | worst errors in ulp |\n|---|---|")
-    for w in table:
-        if OURS in table[w]:
-            cells = [f"{p} {max(r.counters.get('ulp', 0) for r in v.values()):.3g}" for p, v in table[w].items()]
-            print(f"| {w} | {', '.join(cells)} |")
+    for w in contenders(table):
+        cells = [f"{p} {max(r.counters.get('ulp', 0) for r in v.values()):.3g}" for p, v in table[w].items()]
+        print(f"| {w} | {', '.join(cells)} |")
 
 
 def limits(table):
@@ -204,6 +249,7 @@ def main():
     print(f"{repetitions:.0f} repetitions; slowest over fastest repetition, median of all rows: {spread:.2f}\n")
     table = by_workload(rows)
     race(table)
+    methods(table)
     errors(table)
     limits(table)
     others(rows)
