@@ -6,8 +6,8 @@
 
 namespace {
 
-// p < R / 32: all ranges of decide_lanes.h hold with room, since sums divide by R = 32 p instead of 16 p. A sum keeps the
-// low and the high halves of its products apart; 4096 of them fit.
+// p < R / 32: all ranges of decide_lanes.h hold with room, since sums divide by R = 32 p instead of 16 p. A sum keeps
+// the low and the high halves of its products apart; 4096 of them fit.
 class Residues47 {
  public:
   static constexpr int kBits = 47;

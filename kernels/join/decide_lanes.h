@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The zero test of det modulo primes, and the ladder for the joins of one vector. Included by the file of each instruction
-// set, with lanes L and residues M of an anonymous namespace; see decide_forms.h for why.
+// The zero test of det modulo primes, and the ladder for the joins of one vector. Included by the file of each
+// instruction set, with lanes L and residues M of an anonymous namespace; see decide_forms.h for why.
 //
-// M, residues modulo one prime 2^kBits − small < 2^kBits, with R = 2^(kBits + 4) at least, in Montgomery's form without a
-// final subtraction: a number of M is any whole number below 16 p. close(sum) = (sum + m p) / R < sum / R + p.
+// M, residues modulo one prime 2^kBits − small < 2^kBits, with R = 2^(kBits + 4) at least, in Montgomery's form without
+// a final subtraction: a number of M is any whole number below 16 p. close(sum) = (sum + m p) / R < sum / R + p.
 //
 // RANGES in units of p; kBits = 28, R = 2^32 is the narrower case: products of numbers below 16 p, sums below 240 p²
 // (240 p² + 16 p · p ≤ 2^64), close(v p²) < (v / 16 + 1) p.
@@ -15,10 +15,11 @@
 //               det: 30 products of 2.4 · 2.4 = 172.8           → 11.8
 // x is a multiple of p if and only if x p⁻¹ mod R ≤ ⌊(R − 1) / p⌋, for x < R: x → x p⁻¹ is one to one modulo R.
 //
-// HOW MANY PRIMES  A join the filter did not refute has |det coefficient| ≤ 2 · its error bound, by the bound's meaning: far
-// less than any bound from the size of the numbers. If the whole numbers of a, b, c are multiples of 2^i, 2^j, 2^k, det is
-// a multiple of 2^(i+j+k). Let all |coefficients| / 2^(i+j+k) < 2^E. A product of n primes is above 2^(n kBits − 1); when
-// that is at least 2^E, zero modulo all of them is zero. At most, with the terms of the permanents and the largest C:
+// HOW MANY PRIMES  A join the filter did not refute has |det coefficient| ≤ 2 · its error bound, by the bound's
+// meaning: far less than any bound from the size of the numbers. If the whole numbers of a, b, c are multiples of 2^i,
+// 2^j, 2^k, det is a multiple of 2^(i+j+k). Let all |coefficients| / 2^(i+j+k) < 2^E. A product of n primes is above
+// 2^(n kBits − 1); when that is at least 2^E, zero modulo all of them is zero. At most, with the terms of the permanents
+// and the largest C:
 //   polynomial  2 · 23 u · 70 · 6 · 2^(3 · 53) < 2^121, long ones < 2^(121 + 3 · 50)
 //   rational    2 · 50 u · 152 · 24 · 2^(3 · 106 + 53) < 2^337, long ones < 2^(337 + 7 · 8);
 //               homogeneous 2 · 50 u · 152 · 24 · 2^(4 · 53) < 2^178, long ones < 2^(178 + 4 · 50)
@@ -61,9 +62,9 @@ D (&flat(D (&x)[P][3]))
   return reinterpret_cast<D(&)[3 * P]>(x);
 }
 
-// Sufficient for decide_fixed_g1 to take the join, so that every instruction set answers alike: below t = max |E| + max |a| +
-// max |b| < 2^h, entries are 0 or at least 2^-70 t, so that they are multiples of 2^(h-71-52). Those are its 123 bits.
-// REQUIRES they are in range.
+// Sufficient for decide_fixed_g1 to take the join, so that every instruction set answers alike. Coordinates are at most
+// t (1 + 4 u), t = max |E| + max |a| + max |b|, so below 2^h for an h with 2^(h-2) < t; entries are 0 or above 2^-69 t,
+// so above 2^(h-71), and multiples of 2^(h-71-52). Those are its 123 bits. REQUIRES they are in range.
 template <class L>
 unsigned fits_fixed(const typename L::D (&x)[36], const Differences<L>& d) {
   using D = typename L::D;
@@ -74,7 +75,7 @@ unsigned fits_fixed(const typename L::D (&x)[36], const Differences<L>& d) {
   for (int i = 0; i < 12; ++i) edge = L::max(edge, L::abs(x[i]));
 #pragma GCC unroll 36
   for (int i = 0; i < 36; ++i) least = L::least_size(least, x[i]);
-  return L::greater(least, L::multiply(L::add(edge, L::add(a, b)), L::constant(0x1p-70)));
+  return L::greater(least, L::multiply(L::add(edge, L::add(a, b)), L::constant(0x1p-69)));
 }
 
 // The differences as whole numbers.

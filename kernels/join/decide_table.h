@@ -4,7 +4,8 @@
 
 namespace patchproof::kernels {
 
-// One bit for each lane. A lane in none of filter, modular, coplanar was not decided. The others speak of coplanar lanes.
+// One bit for each lane. A lane in none of filter, modular, coplanar was not decided. The others speak of coplanar
+// lanes.
 struct LaneAnswers {
   unsigned filter = 0;    // det ≠ 0 by the floating filter
   unsigned modular = 0;   // det ≠ 0 modulo a prime

@@ -47,8 +47,8 @@ struct Lanes {
     down = _mm256_castsi256_pd(_mm256_sub_epi64(exponent, _mm256_set1_epi64x(52LL << 52)));
   }
 
-  // Whole numbers up to 2^51 in size stand in the mantissa of 3 · 2^51 + x. Of longer ones the lowest 27 bits are enough:
-  // what rounding to a multiple of 2^27 takes off.
+  // Whole numbers up to 2^51 in size stand in the mantissa of 3 · 2^51 + x. Of longer ones the lowest 27 bits are
+  // enough: what rounding to a multiple of 2^27 takes off.
   static I collect_small_bits(I bits, D whole) {
     return _mm256_or_si256(bits, _mm256_castpd_si256(add(whole, constant(0x3p51))));
   }

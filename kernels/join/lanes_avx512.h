@@ -32,7 +32,8 @@ struct Lanes {
     return _mm512_ternarylogic_epi64(seen, _mm512_castpd_si512(x), _mm512_castpd_si512(y), 0xf6);
   }
   static unsigned without(I seen) { return _mm512_testn_epi64_mask(seen, seen); }
-  // The least size so far that is not zero, in `least`, which begins as infinity. As bits: those of 0 minus 1 are the largest.
+  // The least size so far that is not zero, in `least`, which begins as infinity. As bits: those of 0 minus 1 are the
+  // largest.
   static D least_size(D least, D x) {
     const I bits = _mm512_sub_epi64(_mm512_castpd_si512(abs(x)), _mm512_set1_epi64(1));
     return _mm512_castsi512_pd(_mm512_min_epu64(_mm512_castpd_si512(least), bits));
@@ -52,7 +53,8 @@ struct Lanes {
     return __builtin_ctzll(static_cast<unsigned long long>(_mm512_reduce_or_epi64(bits)) | 1ULL << most);
   }
 
-  // to[i] = entry i of each join. Four entries at a time: rows of joins j and j + 4 side by side, then 4 × 4 transposed.
+  // to[i] = entry i of each join. Four entries at a time: rows of joins j and j + 4 side by side, then 4 × 4
+  // transposed.
   template <int Size>
   static void load(const double* const* from, D (&to)[Size]) {
     static_assert(Size % 4 == 0);

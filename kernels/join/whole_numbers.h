@@ -2,8 +2,8 @@
 // Doubles as whole numbers times one power of two, and how far this is exact. Included by decide_lanes.h.
 //
 //   short  y = x · scale is whole, |y| < 2^53
-//   long   x + error, the exact value of a rounded x, is (high · 2^split + low) / (scale · 2^split) with whole high, |high| ≤
-//          2^53, and whole low, |low| ≤ 2^split ≤ 2^50
+//   long   x + error, the exact value of a rounded x, is (high · 2^split + low) / (scale · 2^split) with whole high,
+//          |high| ≤ 2^53, and whole low, |low| ≤ 2^split ≤ 2^50
 // Scales by powers of two are exact unless the result underflows; then scaling back does not give the same.
 #pragma once
 
@@ -13,7 +13,8 @@ namespace patchproof::kernels::lanes {
 
 using namespace patchproof::decide;
 
-// Of differences: anything decide_fixed_g1 takes. Of points that weights multiply: both together are to fit its 123 bits.
+// Of differences: anything decide_fixed_g1 takes. Of points that weights multiply: both together are to fit its 123
+// bits.
 constexpr int kSplit = 50, kSplitOfProducts = 8;
 
 template <class L, int Size>
@@ -35,8 +36,8 @@ void take_short(const typename L::D (&scaled)[Size], Whole<L, Size>& out) {
   for (int i = 0; i < Size; ++i) out.high[i] = scaled[i];
 }
 
-// high = round(y), low = (y − high) 2^split, |low| ≤ 2^(split−1): the difference is exact, as high is one of the two whole
-// numbers next to y or y itself.
+// high = round(y), low = (y − high) 2^split, |low| ≤ 2^(split−1): the difference is exact, as high is one of the two
+// whole numbers next to y or y itself.
 template <class L, int Size>
 unsigned split_long(const typename L::D (&x)[Size], const typename L::D (&scaled)[Size], const Scale<L>& scale,
                     int split, Whole<L, Size>& out) {
@@ -65,7 +66,8 @@ unsigned add_errors(const typename L::D (&error)[Size], const Scale<L>& scale, i
   }
   return whole;
 }
-// 2^this divides all numbers of all lanes (of lanes that are not whole, what rounding leaves: then it may be less): short ones, or long ones by their low parts.
+// 2^this divides all numbers of all lanes (of lanes that are not whole, what rounding leaves: then it may be less):
+// short ones, or long ones by their low parts.
 template <class L, int Size>
 int common_zeros(const Whole<L, Size>& w, bool is_long, int split) {
   typename L::I bits = L::no_bits();

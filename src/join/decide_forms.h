@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The forms of fixed_g1.h over several joins at once: one body for doubles of any width and for residues modulo primes.
 //
-// L, the lanes:  D (L::kCount doubles, one join each), constant, add, subtract, multiply, fma (x y + z), fnma (z − x y), abs,
-//                max, round; masks of lanes as bits: equal, greater, kAll; power_of_two_above.
+// L, the lanes:  D (L::kCount doubles, one join each), constant, add, subtract, multiply, fma (x y + z), fnma (z − x
+//                y), abs, max, round; masks of lanes as bits: equal, greater, kAll; power_of_two_above.
 // N, a number:   Number, Sum, zero, add_product(sum, x, y), close(sum), minus, twice, thrice.
 //
 // Templates only, on types of anonymous namespaces: every instruction set's file keeps its own copy, and none is shared
 // by the linker. For the same reason nothing of namespace std is used here.
 //
-// ERROR OF THE FILTER  u = 2^-53, doubles rounded to nearest. Every computed coefficient is the exact sum with each product
-//   of the expansion times at most r factors (1 + δ), |δ| ≤ u, if no operation underflows; so
+// ERROR OF THE FILTER  u = 2^-53, doubles rounded to nearest. Every computed coefficient is the exact sum with each
+//   product of the expansion times at most r factors (1 + δ), |δ| ≤ u, if no operation underflows; so
 //       |computed − exact| ≤ ((1 + u)^r − 1) · (sum of the sizes of the products) ≤ C · P · r u (1 + r u),
-//   C a sum of binomials, P the permanent of the largest sizes of each coordinate. P is taken from the computed coordinates,
-//   each of at least (1 − u)^2 times the exact one, and in at most ten more roundings. So (r + 1) u C P is a bound while
-//   r < 100. Counting r:
+//   C a sum of binomials, P the permanent of the largest sizes of each coordinate. P is taken from the computed
+//   coordinates, each of at least (1 − u)^2 times the exact one, and in at most ten more roundings. So (r + 1) u C P is
+//   a bound while r < 100. Counting r:
 //     polynomial  a = 3 fl(A − E), b: 2 each.  c = 2 fl(E_i+1 − E_i): 1.
 //                 a × b: a chain of 8 products.  c · (a × b): a chain of 9.        det      r = 2 + 2 + 1 + 8 + 9 = 22
 //                 n_A = c × a: 1 + 2, a chain of 6; n_B too.  A chain of 18.      n_A·n_B  r = 2 · 9 + 18 = 36
@@ -22,10 +22,10 @@
 //                 det: a chain of 30                                               det      r = 7 + 12 + 30 = 49
 //                 n_A: 7 + 2, a chain of 12: 21; n_B too.  A chain of 24.         n_A·n_B  r = 2 · 21 + 24 = 66
 //                 E_w S − S_w E, S = A + B: E 2, S 3, a chain of 8.                C1       r = 13
-//   Underflow: an operation that underflows adds at most 2^-1075. Coordinates are scaled below 2^53, so that products of
-//   weight and point are below 2^106 and of all other factors below 2^440; fewer than 2^12 operations each add below
-//   2^-1075 · 2^440, and so does a coordinate that underflows by scaling. kUnderflow = 2^-600 is far above; of whole numbers
-//   not even the smallest is missed by it. Where max |x| is not in kRange the filter says nothing.
+//   Underflow: an operation that underflows adds at most 2^-1075. Coordinates are scaled below 2^53, so that products
+//   of weight and point are below 2^106 and of all other factors below 2^440; fewer than 2^12 operations each add below
+//   2^-1075 · 2^440, and so does a coordinate that underflows by scaling. kUnderflow = 2^-600 is far above; of whole
+//   numbers not even the smallest is missed by it. Where max |x| is not in kRange the filter says nothing.
 #pragma once
 
 namespace patchproof::decide {

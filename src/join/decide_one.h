@@ -33,8 +33,8 @@ struct OneLane {
   }
 };
 
-// The filter's bounds suppose rounding to nearest, and callers may hold a RoundingGuard, which is seen in the register of
-// the vector unit only: std::fegetround does not tell.
+// The filter's bounds suppose rounding to nearest, and callers may hold a RoundingGuard, which is seen in the register
+// of the vector unit only: std::fegetround does not tell.
 class NearestGuard {
  private:
   RoundingGuard guard_{CGAL_FE_TONEAREST};

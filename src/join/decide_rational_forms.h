@@ -141,7 +141,8 @@ unsigned opposed_rational(const HomogeneousRows<L>& h, const typename L::D (&lin
 }
 
 // a + b = 2 e in exact numbers. The sum s = fl(a + b) is exact if and only if fl(s − a) = b and fl(s − b) = a: an error
-// is a multiple of the smaller unit in the last place of a and b, so one of the two would differ by at least its own unit.
+// is a multiple of the smaller unit in the last place of a and b, so one of the two would differ by at least its own
+// unit.
 template <class L>
 unsigned is_middle(typename L::D e, typename L::D a, typename L::D b) {
   const typename L::D s = L::add(a, b);

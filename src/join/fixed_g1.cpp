@@ -290,8 +290,8 @@ std::vector<Vec<Rational, 4>> scaled_row(const std::vector<Vec<Rational, 4>>& ro
   return out;
 }
 
-// The points with all coordinates whole, and all weights: decimals and other fractions have a common denominator. Space is
-// scaled by it, and the homogeneous coordinate by its own.
+// The points with all coordinates whole, and all weights: decimals and other fractions have a common denominator. Space
+// is scaled by it, and the homogeneous coordinate by its own.
 std::optional<BicubicJoinRows> cleared_rows(const std::vector<Vec<Rational, 4>>& edge,
                                             const std::vector<Vec<Rational, 4>>& cross_a,
                                             const std::vector<Vec<Rational, 4>>& cross_b, bool polynomial) {

@@ -246,7 +246,8 @@ TEST(DecideFilter, BoundOfThePolynomialDeterminant) {
         a[k].push_back(binomial * (from_double(rows.behind_a[j][k]) - e) / from_double(d.scale_a.down));
         b[k].push_back(binomial * (from_double(rows.behind_b[j][k]) - e) / from_double(d.scale_b.down));
         if (j < 3)
-          c[k].push_back(Rational(j == 1 ? 2 : 1) * (from_double(rows.edge[j + 1][k]) - e) / from_double(d.scale_c.down));
+          c[k].push_back(Rational(j == 1 ? 2 : 1) * (from_double(rows.edge[j + 1][k]) - e) /
+                         from_double(d.scale_c.down));
       }
     const Form det = dot_of(c, cross_of(a, b));
     for (int s = 0; s < 9; ++s)

@@ -371,38 +371,5 @@ TEST(FixedG1, Law6_RowsOfAPieceJoinAsThePieceDoes) {
   EXPECT_EQ(fixed_rung_decides_g1({piece, other}), std::nullopt);
 }
 
-// Decimals: the same piece times 1/1000, weights times 1/30, and C1 only up to a factor 7/3.
-TEST(FixedG1, Law6_DenominatorsAreCleared) {
-  for (const bool weighted : {false, true}) {
-    Maker make{WildNumbers(), 12, 2, weighted};
-    int proven = 0, refuted = 0;
-    for (int i = 0; i < 60; ++i) {
-      BicubicJoinRows rows = make.join();
-      if (i % 3 == 1) rows.behind_a[2][2] += 1;
-      JoinPiece<Rational> piece = piece_of(rows);
-      for (auto* side : {&piece.a, &piece.b})
-        for (auto& row : *side)
-          for (auto& p : row) {
-            for (int k = 0; k < 3; ++k) p[k] = p[k] / Rational(1000);
-            if (weighted) p[3] = p[3] / Rational(30);
-          }
-      for (auto& p : piece.b[1]) p = Rational(7) / Rational(3) * p;
-      const std::optional<BicubicJoinRows> back = bicubic_join_rows(piece);
-      ASSERT_TRUE(back);
-      const Truth t = truth(piece);
-      const std::optional<FixedG1> answer = decide_fixed_g1(*back);
-      ASSERT_TRUE(answer);
-      ASSERT_EQ(*answer == FixedG1::refuted, !t.coplanar);
-      if (*answer == FixedG1::proven_smooth) {
-        ASSERT_TRUE(t.smooth);
-      }
-      proven += *answer == FixedG1::proven_smooth;
-      refuted += *answer == FixedG1::refuted;
-    }
-    EXPECT_GT(proven, 25);
-    EXPECT_EQ(refuted, 20);
-  }
-}
-
 }  // namespace
 }  // namespace patchproof::test

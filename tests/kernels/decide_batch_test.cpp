@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every instruction set of this machine against decide_join, which tests/join/decide_batch_test.cpp holds against the exact
-// rung; on a part the exact rung is asked here too.
+// Every instruction set of this machine against decide_join, which tests/join/decide_batch_test.cpp holds against the
+// exact rung; on a part the exact rung is asked here too.
 #include "patchproof/join/decide_batch.h"
 
 #include <gtest/gtest.h>
@@ -60,8 +60,8 @@ TEST(DecideBatch, Law2_TheLeastBitIsSeen) {
   }
 }
 
-// One axis scaled keeps every class and makes long numbers: 53 + bits. Differences are taken up to 103 bits, points that
-// weights multiply up to 61, weights as well.
+// One axis scaled keeps every class and makes long numbers: 53 + bits. Differences are taken up to 103 bits, points
+// that weights multiply up to 61, weights as well.
 TEST(DecideBatch, Law2_LongNumbers) {
   for (const G1Family& family : {kD53, kC1, kR53, kR106})
     for (const int bits : {1, 7, 20, 44}) {
@@ -108,8 +108,8 @@ TEST(DecideBatch, Law1_C1SeesWeights) {
   }
 }
 
-// Bits that differences of doubles lose: a coordinate of 2^-20 beside coordinates of 2^40, or all of them far apart from the
-// differences.
+// Bits that differences of doubles lose: a coordinate of 2^-20 beside coordinates of 2^40, or all of them far apart
+// from the differences.
 TEST(DecideBatch, Law2_RoundedDifferences) {
   WildNumbers random;
   std::vector<BicubicJoinRows> planar, bent, apart;

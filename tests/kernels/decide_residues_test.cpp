@@ -26,9 +26,9 @@ TEST(DecideResidues, PrimesArePrime) {
   check(kernels::kBelow47, 47);
 }
 
-// A product of primes as the determinant of constant a, b, c: det = (a_y b_z − a_z b_y) c_x. The terms are so much greater
-// that the filter sees nothing, and one prime less than the bound asks for would see nothing either. Whole a, b just below
-// 2^53 are found by the extended Euclidean algorithm.
+// A product of primes as the determinant of constant a, b, c: det = (a_y b_z − a_z b_y) c_x. The terms are so much
+// greater that the filter sees nothing, and one prime less than the bound asks for would see nothing either. Whole a, b
+// just below 2^53 are found by the extended Euclidean algorithm.
 TEST(DecideResidues, ProductsOfPrimesAreNotZero) {
   WildNumbers random;
   const auto prime = [](int bits, int i) {

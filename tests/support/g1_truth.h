@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The judge of decisions about rows: the exact rung, forms over Integer, which share no code with fixed widths or residues.
+// The judge of decisions about rows: the exact rung, forms over Integer, which share no code with fixed widths or
+// residues.
 #pragma once
 
 #include "patchproof/join/continuity.h"
@@ -41,9 +42,9 @@ struct ExactAnswer {
   bool coplanar = false;  // C0 and det ≡ 0
   bool smooth = false;    // coplanar, both normals free of zeros, opposed
 };
-inline ExactAnswer exact_answer(const BicubicJoinRows& rows, const BicubicEdge* other = nullptr) {
+inline ExactAnswer exact_answer(const JoinPiece<Rational>& piece) {
   const RoundingGuard guard;
-  const JoinForms<Integer> forms = join_forms<Integer>(exact_piece(rows, other));
+  const JoinForms<Integer> forms = join_forms<Integer>(piece);
   ExactAnswer answer;
   answer.c0 = is_c0(forms);
   if (!answer.c0) return answer;
@@ -56,6 +57,9 @@ inline ExactAnswer exact_answer(const BicubicJoinRows& rows, const BicubicEdge* 
   };
   answer.smooth = regular(a) && regular(b) && *scalar_traits<Integer>::sign(dot(a.n, b.n)[0]) == Sign::negative;
   return answer;
+}
+inline ExactAnswer exact_answer(const BicubicJoinRows& rows, const BicubicEdge* other = nullptr) {
+  return exact_answer(exact_piece(rows, other));
 }
 
 }  // namespace patchproof::test

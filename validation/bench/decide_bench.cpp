@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact G1 of bicubic joins: decide/FAMILY|METHOD, one item for each join, with the joins each method accepts as a counter.
-// Beside it OCCT's LocalAnalysis_SurfaceContinuity at 23 points of the edge, which asks another question: are the normals
-// there within an angle (by default 1e-3)? So it accepts joins that are off by one unit in the last place, or by 1e-6.
+// Exact G1 of bicubic joins: decide/FAMILY|METHOD, one item for each join, with the joins each method accepts as a
+// counter. Beside it OCCT's LocalAnalysis_SurfaceContinuity at 23 points of the edge, which asks another question: are
+// the normals there within an angle (by default 1e-3)? So it accepts joins that are off by one unit in the last place,
+// or by 1e-6.
 //   filter     floating filter alone              zero test   det ≡ 0 proved or refuted
 //   whole      C1, G1 with sides and regularity, what is open handed on; by decide_batch
 //   two edges  the same, and C0 of the edge rows given twice
