@@ -100,20 +100,23 @@ struct LineSums {
   const double* a;
   int taps;
   std::size_t stride;
+  const double* own[Taps > 0 ? Taps : 1];  // lines, where vector stores cannot be taken to change them
   hn::Vec<D> factor[Taps > 0 ? Rows : 1][Taps > 0 ? Taps : 1];
 
   HWY_INLINE LineSums(const double* const* from, const double* coefficients, int count, std::size_t apart)
       : lines(from), a(coefficients), taps(Taps > 0 ? Taps : count), stride(apart) {
-    if constexpr (Taps > 0)
+    if constexpr (Taps > 0) {
+      for (int k = 0; k < Taps; ++k) own[k] = lines[k];
       for (int r = 0; r < Rows; ++r)
         for (int k = 0; k < Taps; ++k) factor[r][k] = hn::Set(D(), a[r * Taps + k]);
+    }
   }
   // All rows at the numbers from x on, as many as there are in a vector of Tag.
   template <class Tag>
   HWY_INLINE void at(Tag d, int x, double* to) const {
     if constexpr (Taps > 0) {
       hn::Vec<Tag> in[Taps];
-      for (int k = 0; k < Taps; ++k) in[k] = hn::LoadU(d, lines[k] + x);
+      for (int k = 0; k < Taps; ++k) in[k] = hn::LoadU(d, own[k] + x);
       for (int r = 0; r < Rows; ++r) {
         auto sum = hn::Mul(same_in(d, factor[r][0]), in[0]);
         for (int k = 1; k < Taps; ++k) sum = hn::MulAdd(same_in(d, factor[r][k]), in[k], sum);
@@ -139,9 +142,9 @@ struct LineSums {
     if (size >= kLanes) return at(d, from + size - kLanes, to + size - kLanes);  // once more some of those before
     if constexpr (kLanes > 1) {
       double last[Rows][kLanes];
-      LineSums own = *this;
-      own.stride = kLanes;
-      own.at(d, from + x, last[0]);
+      LineSums other = *this;
+      other.stride = kLanes;
+      other.at(d, from + x, last[0]);
       for (int r = 0; r < Rows; ++r)
         for (int i = 0; x + i < size; ++i) to[r * stride + x + i] = last[r][i];
     }
