@@ -2,9 +2,9 @@
 // Bodies of the two banded products, in highway's namespace of the instruction set that the including file is compiled
 // for, so that no two sets share a function.
 //
-// Along v first. Two lines of the old net at a time are laid side by side, eight numbers for a pair of points (x y z w of
-// both), so that a row of the band is one vector times a number for each tap. The refined lines go into a ring, from which
-// each line of the result is summed along u, a whole line of numbers with a few factors: both directions stream.
+// Along v first. Two lines of the old net at a time are laid side by side, eight numbers for a pair of points (x y z w
+// of both), so that a row of the band is one vector times a number for each tap. The refined lines go into a ring, from
+// which each line of the result is summed along u, a whole line of numbers with a few factors: both directions stream.
 // Each sum is c_0 x_0, then c_k x_k added by fused multiply-add in the order of k, in every place and on every path.
 #pragma once
 
@@ -92,8 +92,8 @@ HWY_INLINE hn::Vec<D> same_in(D, hn::Vec<D> x) { return x; }
 HWY_INLINE hn::Vec<Quad> same_in(Quad q, hn::Vec<D> x) { return hn::LowerHalf(q, x); }
 #endif
 
-// to[x] = Σ_k a_k lines[k][x] for x < size, for Rows rows of coefficients, whose results lie `stride` apart. The lines may
-// be read a vector beyond their end. Taps 0: as many as `taps` says.
+// to[x] = Σ_k a_k lines[k][x] for x < size, for Rows rows of coefficients, whose results lie `stride` apart. The lines
+// may be read a vector beyond their end. Taps 0: as many as `taps` says.
 template <int Rows, int Taps>
 struct LineSums {
   const double* const* lines;

@@ -72,8 +72,8 @@ struct Factors {
   std::array<bool, FixedPatch::kMostDegree + 1> negative;
 };
 
-// C(n,i) s^(n−i) t^i for all i. The widths are those of the whole products: C(n,i) |t|^i alone may be too long when s is
-// 0, but then it is right modulo 2^(64 W), and so is the product, which fits.
+// C(n,i) s^(n−i) t^i for all i. The widths are those of the whole products: C(n,i) |t|^i alone may be too long when s
+// is 0, but then it is right modulo 2^(64 W), and so is the product, which fits.
 template <int W>
 Factors<W> bernstein_factors(int n, const FixedInteger<2>& s, const FixedInteger<2>& t) {
   const FixedInteger<2> positive_s = size_of(s), positive_t = size_of(t);
@@ -297,9 +297,9 @@ Rational FixedPoint::coordinate(int c) const {
   return negative_[c] ? Rational(-size) : size;
 }
 
-// Q = floor(A 2^m / D) has 62 or 63 bits when A 2^m is 62 bits longer than D. Let h and n be D/2^k and A 2^m/2^k rounded
-// down, h of 64 bits, so n < 2^126. Then n/(h + 1) ≤ A 2^m / D < (n + 1)/h, and these differ by (n + h + 1)/(h (h + 1)),
-// less than 1 + 2^-62: the quotient n/(h + 1), rounded down, is Q, Q − 1 or Q − 2. The remainder decides.
+// Q = floor(A 2^m / D) has 62 or 63 bits when A 2^m is 62 bits longer than D. Let h and n be D/2^k and A 2^m/2^k
+// rounded down, h of 64 bits, so n < 2^126. Then n/(h + 1) ≤ A 2^m / D < (n + 1)/h, and these differ by less than
+// n/h² + 1/h < 1 + 2^-62: the quotient n/(h + 1), rounded down, is Q, Q − 1 or Q − 2. The remainder decides.
 double FixedPoint::nearest(int c) const {
   const Word *a = numerator_[c].data(), *d = denominator_.data();
   const int length_a = bit_length(a, limbs_), length_d = bit_length(d, limbs_);

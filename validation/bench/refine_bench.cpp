@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refinement and exact points. One item is a whole operation; every row is held against exact values before it is timed.
+// Refinement and exact points. One item is a whole operation; each row is held against exact values, then timed.
 //   SURFACE/refine_40x40/net|PEER    20 new knots in each direction, from knots to control points
 //   SURFACE/extract/net|PEER         all 17 × 17 Bézier patches
-//     ours: with the bands of coefficients, and with these prepared. SISL's and OCCT's results are not copied out. Rational
-//     surfaces: ours end with homogeneous points, as SISL keeps them.
+//     ours: with the bands of coefficients, and with these prepared. SISL's and OCCT's results are not copied out.
+//     Rational surfaces: ours end with homogeneous points, as SISL keeps them.
 //   bezier_3x3/exact_dyadic/point    at doubles of 53 bits;  exact_fraction: at fractions of denominators up to 97
 //     fixed width: exact numerators and denominator; + patch: from doubles, nothing prepared; + nearest: rounded to
 //     nearest; scalar double: de Casteljau; Rational: the same template, exactly

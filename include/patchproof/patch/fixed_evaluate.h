@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact point of a Bézier patch of doubles at a rational parameter, in integers of a fixed width, without allocation.
+// The exact point of a Bézier patch of doubles at a rational parameter, in integers of a fixed width: no allocation.
 //
 //   S(u,v) = Σ_i Σ_j C(p,i) C(q,j) s^(p−i) t^i σ^(q−j) τ^j w_ij P_ij / the same sum of w_ij
 //   for u = t/(s + t), v = τ/(σ + τ) with whole s, t, σ, τ; without weights the sum below is (s + t)^p (σ + τ)^q
 //
-// Coordinates are doubles, so one power of two for each of x, y, z makes whole numbers X_ij of them; another one does so
-// for the weights, and whole numbers w X stand for the products. Then everything is one sum of whole numbers for each
-// coordinate, and one for the denominator.
+// Coordinates are doubles, so one power of two for each of x, y, z makes whole numbers X_ij of them; another one does
+// so for the weights, and whole numbers w X stand for the products. Then everything is one sum of whole numbers for
+// each coordinate, and one for the denominator.
 //
 // WIDTHS  Parameters take k bits: |s| + |t| ≤ 2^k, and so for v; whole numbers take x bits: |X| < 2^x. Since
 //   Σ_i C(p,i) |s|^(p−i) |t|^i = (|s| + |t|)^p ≤ 2^(pk), with W limbs for factors and L limbs for numbers:
@@ -15,8 +15,8 @@
 //     the whole sum                < 2^(pk + qk' + x)   ≤ 2^(64 (2W + L) − 5)        2W + L limbs
 //     (s + t)^p (σ + τ)^q          ≤ 2^(pk + qk')       ≤ 2^(128 W − 4)              2W limbs
 //   whenever pk, qk' ≤ 64 W − 2 and x ≤ 64 L − 1. Partial sums obey the same bounds. W = 1, 3, 5, 6, 10 and L = 1, 2, 4
-//   are compiled; the least that suffice are used. A double x is accepted as a parameter when it is a multiple of 2^-125
-//   and |x| < 2^125 (all of [2^-73, 1] is); every ratio of 64-bit numbers is. Then |s| + |t| < 2^127, so k ≤ 127.
+//   are compiled; the least that suffice are used. A double x is accepted as a parameter when it is a multiple of
+//   2^-125 and |x| < 2^125 (all of [2^-73, 1] is); every ratio of 64-bit numbers is. So |s| + |t| < 2^127 and k ≤ 127.
 //   Doubles in [1/1024, 1] take k ≤ 63.
 //
 // REQUIRES  all numbers are finite; (degree + 1)(degree + 1) points, as many weights or none.
@@ -25,8 +25,8 @@
 //           0, …, 5 or a whole number takes more than 255 bits; a parameter is empty when it is not accepted as above;
 //           evaluate never is, except where the denominator vanishes;  (4) parameters outside [0, 1] are those of the
 //           polynomial;  (5) scaling all coordinates by a power of two scales the point.
-// COST      (p + 1)(q + 1) W L + (p + 1) W (W + L) word products for each coordinate, about 4 p W + p W² for the factors. No
-//           heap, except in coordinate().
+// COST      (p + 1)(q + 1) W L + (p + 1) W (W + L) word products for each coordinate, about 4 p W + p W² for the
+//           factors. No heap, except in coordinate().
 // NEIGHBOURS bezier_patch.h, rational_patch.h (evaluate() over Rational: the oracle of the tests), evaluate_batch.h.
 // TEST      tests/patch/fixed_evaluate_test.cpp checks (1)–(5).
 #pragma once

@@ -3,15 +3,15 @@
 //
 //   d'_ij = Σ_k Σ_l a_ik b_jl d_{f_i + k, g_j + l}     0 ≤ k ≤ p, 0 ≤ l ≤ q
 //
-// a and b are the bands of spline/refinement_band.h, one for each direction; they depend on the knots only. A refinement
-// is prepared once and used for any number of nets on these knots, by any number of threads. Any number of knots goes in
-// at once, at the cost of two banded products; the lines along v are refined first.
-// Rational surfaces: homogeneous points (w x, w y, w z, w). The products w x of the doubles given are rounded once, then
-// the four numbers are refined like any others.
+// a and b are the bands of spline/refinement_band.h, one for each direction; they depend on the knots only. A
+// refinement is prepared once and used for any number of nets on these knots, by any number of threads. Any number of
+// knots goes in at once, at the cost of two banded products; the lines along v are refined first.
+// Rational surfaces: homogeneous points (w x, w y, w z, w). The products w x of the doubles given are rounded once,
+// then the four numbers are refined like any others.
 //
 // REQUIRES  rounding to nearest; output and input do not overlap.
-// ENSURES   (1) |computed − exact| ≤ γ_N S + U for every number written, where exact is the formula in exact arithmetic on
-//             the knots, points and weights given, S = Σ Σ a_ik b_jl |d_kl| ≤ D, the largest |d|,
+// ENSURES   (1) |computed − exact| ≤ γ_N S + U for every number written, where exact is the formula in exact arithmetic
+//             on the knots, points and weights given, S = Σ Σ a_ik b_jl |d_kl| ≤ D, the largest |d|,
 //             N = 6(p + q) + 2, for w x, w y, w z one more,   γ_N = N u/(1 − N u),  u = 2^-53,
 //             U = ((p + 2)² + (q + 2)²)(1 + D) 2^-1074.
 //           Why: a coefficient carries 5p roundings and what underflow took, 2^-1074 (p + 1)(p + 2)/2 in each row
@@ -23,11 +23,12 @@
 //             numbers depend only on the (p + 1)(q + 1) old points of the formula;
 //           (4) neighbouring Bézier pieces share the very same numbers along their common edge when the knot between
 //             them has a multiplicity of at most the degree;
-//           (5) the exact formula over Rational is patch_knots.h's and bezier_patch.h's, points without influence included.
+//           (5) the formula over Rational is patch_knots.h's and bezier_patch.h's, points without influence included.
 //           Any multiplicity is legal, and knots may be unclamped.
 // ERRORS    make…: bad_degree, wrong_count, decreasing_knots, empty_domain; bad_number: a knot is not finite, or their
 //           range overflows; outside_domain: a new knot is outside the domain or NaN.
-//           apply: wrong_count; bad_number: a number is not finite, or products w x may exceed 2^1022. Nothing is written.
+//           apply: wrong_count; bad_number: a number is not finite, or products w x may exceed 2^1022. Nothing is
+//           written.
 // COST      see validation/bench. apply works in less than 80 KiB for degrees up to 6, whatever the size of the net; it
 //           allocates them once when they are more than 16 KiB.
 // NEIGHBOURS patch_knots.h, bezier_patch.h (the exact templates, the oracle of the tests), evaluate_batch.h.

@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refinement as a matrix: each control point on finer knots is a convex combination of at most p + 1 old ones.
 //
-//   d'_i = Σ_k a_ik d_{f_i + k},  0 ≤ k ≤ p:  the blossom of one polynomial piece at the new knots (s_{i+1}, …, s_{i+p}).
+//   d'_i = Σ_k a_ik d_{f_i + k},  0 ≤ k ≤ p:  the blossom of one piece at the new knots (s_{i+1}, …, s_{i+p}).
 //   On the span [t_m, t_{m+1}], f_i = m − p, begin with b_0 = 1; step r = 1, …, p takes one argument x and replaces
-//     b_q by  (h_q − x)/(h_q − l_q) b_q + (x − l_{q−1})/(h_{q−1} − l_{q−1}) b_{q−1},    l_q = t_{m−r+1+q}, h_q = t_{m+1+q}
-//   with b_{−1} = b_r = 0 on the right. After p steps a_ik = b_k.
+//     b_q by  (h_q − x)/(h_q − l_q) b_q + (x − l_{q−1})/(h_{q−1} − l_{q−1}) b_{q−1}
+//   where l_q = t_{m−r+1+q}, h_q = t_{m+1+q}, and b_{−1} = b_r = 0 on the right. After p steps a_ik = b_k.
 //
 // ORDER  A blossom may take its arguments in any order; one order never extrapolates. Begin at a span [s_a, s_{a+1}] of
-//   the new knots in [t_m, t_{m+1}] and take the neighbours s_{a+1}, … on the right, s_a, … on the left, so that after r
-//   steps the arguments are s_{l+1}, …, s_{l+r}. Let e(j) be the place of t_j among the new knots. Then b_q ≠ 0 implies
-//   e(j) ≤ l and l + r + 1 ≤ e(j + r + 1) for j = m − r + q. It does for r = 0. Step to the right, x = s_{l+r+1}: the
-//   term of (x − l) keeps j, and e(j + r + 2) > e(j + r + 1); the term of (h − x) leads to j − 1 and is zero unless
-//   x < t_{j+r+1}, which stands behind x. Steps to the left likewise. Hence l_q ≤ x ≤ h_q wherever b_q ≠ 0: all factors
-//   are in [0, 1], and what is zero is computed as zero. Elsewhere x is moved to the nearer end: 0 times anything.
+//   the new knots in [t_m, t_{m+1}] and take the neighbours s_{a+1}, … on the right, s_a, … on the left, so that after
+//   r steps the arguments are s_{l+1}, …, s_{l+r}. Let e(j) be the place of t_j among the new knots. Then b_q ≠ 0
+//   implies e(j) ≤ l and l + r + 1 ≤ e(j + r + 1) for j = m − r + q. It does for r = 0. Step to the right, x =
+//   s_{l+r+1}: the term of (x − l) keeps j, and e(j + r + 2) > e(j + r + 1); the term of (h − x) leads to j − 1 and is
+//   zero unless x < t_{j+r+1}, which stands behind x. Steps to the left likewise. Hence l_q ≤ x ≤ h_q wherever b_q ≠ 0:
+//   all factors are in [0, 1], and what is zero is computed as zero. Elsewhere x is moved to the nearer end: 0 times
+//   anything.
 //
-// ROUNDING  On doubles with unit roundoff u = 2^-53 a step costs each term at most 5 roundings of factors or sums of one
-//   sign: two differences, a quotient, a product, a sum. So â_ik = a_ik (1 + θ) + ε, |θ| ≤ γ_{5p} = 5pu/(1 − 5pu), where
-//   Σ_k |ε| ≤ (p + 1)(p + 2)/2 · 2^-1074 stems from underflow: in step r quotients and products add at most 2^-1075 to
-//   each factor and each term, Σ_q b_q ≤ 1 + γ, and the factors of one b_q sum to 1, so nothing is magnified.
+// ROUNDING  On doubles with unit roundoff u = 2^-53 a step costs each term at most 5 roundings of factors or sums of
+//   one sign: two differences, a quotient, a product, a sum. So â_ik = a_ik (1 + θ) + ε, |θ| ≤ γ_{5p} = 5pu/(1 − 5pu),
+//   where Σ_k |ε| ≤ (p + 1)(p + 2)/2 · 2^-1074 stems from underflow: in step r quotients and products add at most
+//   2^-1075 to each factor and each term, Σ_q b_q ≤ 1 + γ, and the factors of one b_q sum to 1, so nothing is
+//   magnified.
 //
-// REQUIRES  the same degree and domain; every old knot stands in the new ones at least as often; knots outside the domain
-//           are the same. h − l does not overflow. Any multiplicity is legal, and knots may be unclamped.
-// ENSURES   (1) over an exact scalar apply_band(refinement_band(t, s), d) are the points of refine(curve, s), those without
-//           influence included;  (2) apply_band(bezier_band(t), d) are the points of extract_bezier(curve), piece by piece;
+// REQUIRES  the same degree and domain; every old knot stands in the new ones at least as often; knots outside the
+//           domain are the same. h − l does not overflow. Any multiplicity is legal, and knots may be unclamped.
+// ENSURES   (1) over an exact scalar apply_band(refinement_band(t, s), d) are the points of refine(curve, s), those
+//           without influence included;  (2) apply_band(bezier_band(t), d) are the points of extract_bezier(curve),
+//           piece by piece;
 //           (3) coefficients are ≥ 0 and sum to 1: exactly over exact scalars, on doubles up to γ_{5p} and ε;
-//           (4) first does not decrease;  (5) coefficients of Tracked are those of double with an error bound, which the
-//           bound above covers;  (6) neighbouring pieces of extract_bezier that meet (an inner knot of multiplicity at
-//           most p) share the very same numbers there, on doubles too.
+//           (4) first does not decrease;  (5) coefficients of Tracked are those of double with an error bound, which
+//           the bound above covers;  (6) neighbouring pieces of extract_bezier that meet (an inner knot of multiplicity
+//           at most p) share the very same numbers there, on doubles too.
 // SCALARS   T: Ring (Field when the knots are not exact), K: OrderedField.
 // COST      p (p + 1) quotients a row at most.
-// SOURCE    E. Cohen, T. Lyche, R. Riesenfeld, Discrete B-splines and subdivision techniques, CGIP 14 (1980) 87–111; the
-//           blossom: L. Ramshaw, Blossoms are polar forms, CAGD 6 (1989) 323–358. The order of arguments is ours.
+// SOURCE    E. Cohen, T. Lyche, R. Riesenfeld, Discrete B-splines and subdivision techniques, CGIP 14 (1980) 87–111;
+//           the blossom: L. Ramshaw, Blossoms are polar forms, CAGD 6 (1989) 323–358. The order of arguments is ours.
 // NEIGHBOURS knot_insertion.h, bezier_extraction.h (one knot at a time, the oracle of the tests), patch/refine_batch.h.
 #pragma once
 
