@@ -47,7 +47,7 @@ Result<BatchSummary> run(std::size_t count, std::size_t share, int threads, cons
   const bool outside = all.stop == kernels::Stop::outside_domain;
   return Error{outside ? ErrorCode::outside_domain : ErrorCode::vanishing_weight,
                "parameter " + std::to_string(first_bad),
-               outside ? "the parameter lies outside the domain" : "the denominator is zero at this parameter",
+               outside ? "the parameter lies outside the domain" : "the denominator is zero, or too small for double, at this parameter",
                describe(first_bad)};
 }
 

@@ -100,9 +100,34 @@ struct GridKernel {
   }
 };
 
+// For degrees beyond the buffer: each row as scattered parameters.
+inline Progress grid_by_points(const SurfacePieces& s, const SurfaceCall& call, const double* u, std::size_t count_u,
+                               const double* v, std::size_t count_v) {
+  Progress progress;
+  double row[kTile];
+  for (std::size_t i = 0; i < count_u; ++i) {
+    for (double& x : row) x = u[i];
+    for (std::size_t j = 0; j < count_v; j += kTile) {
+      const std::size_t n = count_v - j < kTile ? count_v - j : kTile;
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(i * count_v + j);
+      SurfaceCall part = call;
+      for (VectorArray SurfaceOutput::*out :
+           {&SurfaceOutput::point, &SurfaceOutput::du, &SurfaceOutput::dv, &SurfaceOutput::normal, &SurfaceOutput::duu,
+            &SurfaceOutput::duv, &SurfaceOutput::dvv})
+        part.out.*out = (call.out.*out).from(at);
+      const Progress done = surface(s, part, row, v + j, n);
+      progress.undefined_normals += done.undefined_normals;
+      if (done.stop != Stop::none) return {static_cast<std::size_t>(at) + done.good, done.stop, 0};
+    }
+  }
+  progress.good = count_u * count_v;
+  return progress;
+}
+
 // REQUIRES all parameters in the domain.
 inline Progress grid(const SurfacePieces& s, const SurfaceCall& call, const double* u, std::size_t count_u,
                      const double* v, std::size_t count_v) {
+  if (s.v.degree > kLargestGridDegree) return grid_by_points(s, call, u, count_u, v, count_v);
   return with_constants(s, order_of(call.out), [&]<int Order, bool Rational, int P, int Q_>() {
     return GridKernel<Order, Rational, P, Q_>::all(s, call, u, count_u, v, count_v);
   });

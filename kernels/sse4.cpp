@@ -2,5 +2,5 @@
 #include "kernels/table_of_target.h"
 
 namespace patchproof::kernels {
-const KernelTable kSse4 = HWY_NAMESPACE::table();
+constinit const KernelTable kSse4 = HWY_NAMESPACE::table();  // no code of this set runs before it is asked for
 }

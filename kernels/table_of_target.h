@@ -8,6 +8,6 @@
 
 namespace patchproof::kernels::HWY_NAMESPACE {
 
-inline KernelTable table() { return {&surface, &grid, &bounded, &curve, &compensated}; }
+constexpr KernelTable table() { return {&surface, &grid, &bounded, &curve, &compensated}; }
 
 }  // namespace patchproof::kernels::HWY_NAMESPACE

@@ -142,6 +142,13 @@ ParameterBox<double> BatchSurface::domain() const {
 int BatchSurface::degree(Direction d) const { return (d == Direction::u ? pieces_->u : pieces_->v).degree; }
 bool BatchSurface::is_rational() const { return pieces_->rational; }
 
+double BatchSurface::error_bound(SurfaceVector vector) const {
+  double largest = 0;
+  for (const kernels::PieceBounds& piece : pieces_->bounds)
+    largest = std::max(largest, piece.error[static_cast<int>(vector)]);
+  return largest;
+}
+
 Result<BatchSummary> BatchSurface::evaluate(std::span<const double> u, std::span<const double> v,
                                             const SurfaceOutput& out, const SurfaceBatchOptions& options) const {
   PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
@@ -178,7 +185,7 @@ Result<BatchSummary> BatchSurface::evaluate_bounded(std::span<const double> u, s
                                                     const SurfaceBatchOptions& options) const {
   return bounded(*pieces_, u, v, options, [&](kernels::SurfaceCall& call, std::size_t begin) {
     call.out.point = point.from(static_cast<std::ptrdiff_t>(begin));
-    call.bound = bound + begin;
+    call.bound = bound == nullptr ? nullptr : bound + begin;
   });
 }
 

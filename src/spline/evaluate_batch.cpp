@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/spline/evaluate_batch.h"
 
+#include <algorithm>
+
 #include "kernels/batch_call.h"
 #include "kernels/kernel_table.h"
 #include "kernels/prepare.h"
@@ -17,6 +19,13 @@ double BatchCurve::domain_begin() const { return pieces_->t.begin; }
 double BatchCurve::domain_end() const { return pieces_->t.end; }
 int BatchCurve::degree() const { return pieces_->t.degree; }
 bool BatchCurve::is_rational() const { return pieces_->rational; }
+
+double BatchCurve::error_bound(int derivative) const {
+  PATCHPROOF_REQUIRES(0 <= derivative && derivative <= 2, "error_bound: derivatives 0, 1, 2");
+  double largest = 0;
+  for (const kernels::PieceBounds& piece : pieces_->bounds) largest = std::max(largest, piece.error[derivative]);
+  return largest;
+}
 
 Result<BatchSummary> BatchCurve::evaluate(std::span<const double> t, const CurveOutput& out,
                                           const CurveBatchOptions& options) const {

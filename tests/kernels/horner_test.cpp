@@ -27,21 +27,39 @@ template <class T>
 Vec<T, 4> scale(const Vec<T, 4>& a, const T& x) {
   return {{a[0] * x, a[1] * x, a[2] * x, a[3] * x}};
 }
-template <class T>
-Vec<T, 4> minus_product(const Vec<T, 4>& a, const Vec<T, 4>& s, const T& w) {
-  return {{a[0] - s[0] * w, a[1] - s[1] * w, a[2] - s[2] * w, a[3] - s[3] * w}};
+// A power of two scales exactly; Tracked's product would count a rounding.
+struct Power {
+  double x;
+  explicit Power(double value) : x(value) {}
+  friend Power operator*(Power a, Power b) { return Power(a.x * b.x); }
+};
+Vec<Rational, 4> scale(const Vec<Rational, 4>& a, Power f) { return scale(a, from_double(f.x)); }
+Vec<Tracked, 4> scale(const Vec<Tracked, 4>& a, Power f) {
+  Vec<Tracked, 4> out;
+  for (int k = 0; k < 4; ++k) out[k] = Tracked(a[k].value() * f.x, a[k].error() * f.x);
+  return out;
 }
 template <class T>
-T weight_of(const Vec<T, 4>& a) {
-  return a[3];
+struct WeightOf {
+  T w;
+};
+template <class T>
+WeightOf<T> weight_of(const Vec<T, 4>& a) {
+  return {a[3]};
 }
-Rational reciprocal(const Rational& w) { return Rational(1) / w; }
-Tracked reciprocal(const Tracked& w) { return Tracked(1) / w; }
+template <class T>
+T reciprocal(const WeightOf<T>& weight) {
+  return T(1) / weight.w;
+}
+template <class T>
+Vec<T, 4> minus_product(const Vec<T, 4>& a, const Vec<T, 4>& s, const WeightOf<T>& weight) {
+  return {{a[0] - s[0] * weight.w, a[1] - s[1] * weight.w, a[2] - s[2] * weight.w, a[3] - s[3] * weight.w}};
+}
 
 namespace {
 
 template <class T, class Coefficient>
-kernels::SurfaceJet<2, Vec<T, 4>> jet_at(int p, int q, const T& x, const T& y, const T& factor_x, const T& factor_y,
+kernels::SurfaceJet<2, Vec<T, 4>> jet_at(int p, int q, const T& x, const T& y, Power factor_x, Power factor_y,
                                          Coefficient c) {
   kernels::HornerRows<2, Vec<T, 4>> rows;
   for (int j = q; j >= 0; --j) {
@@ -70,11 +88,11 @@ TEST(KernelBodies, OnRationalTheyAreTheExactTemplate) {
             sum += (mu[i * (p + 1) + a] * mv[j * (q + 1) + b]) * patch.point(su - p + a, sv - q + b);
         return sum;
       };
-      const auto jet = jet_at<Rational>(p, q, (u - cu) * gu, (v - cv) * gv, gu, gv, c);
+      const auto jet = jet_at<Rational>(p, q, (u - cu) * gu, (v - cv) * gv, Power(8), Power(2), c);
       const int order[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
       const auto homogeneous = partial_derivatives(patch, u, v, 2, 2);
       for (int m = 0; m < 6; ++m) EXPECT_EQ(jet.d[m], homogeneous.at(order[m][0], order[m][1])) << p << q << m;
-      if (weight_of(jet.d[0]) == Rational(0)) continue;
+      if (jet.d[0][3] == Rational(0)) continue;
       const auto affine = rational_derivatives(patch, u, v, 2, 2);
       const auto divided = kernels::quotient<2>(jet);
       for (int m = 0; m < 6; ++m)
@@ -103,8 +121,8 @@ TEST(KernelBodies, OnTrackedTheirErrorsStayWithinThePreparedBounds) {
         for (const double x : {-0.9375, 0.0, 0.3, 0.999})
           for (const double y : {-0.7, 0.25, 1.0}) {
             const auto parameter = [](double t) { return Tracked(t, 0x1p-53 * std::fabs(t)); };
-            auto jet = jet_at<Tracked>(s.u.degree, s.v.degree, parameter(x), parameter(y), Tracked(s.u.scale[a]),
-                                       Tracked(s.v.scale[b]), coefficient);
+            auto jet = jet_at<Tracked>(s.u.degree, s.v.degree, parameter(x), parameter(y), Power(s.u.scale[a]),
+                                       Power(s.v.scale[b]), coefficient);
             if (s.rational) jet = kernels::quotient<2>(jet);
             for (int m = 0; m < 6; ++m)
               for (int k = 0; k < 3; ++k) {

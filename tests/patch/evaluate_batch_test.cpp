@@ -96,6 +96,20 @@ TEST(EvaluateBatch, Law1EachNumberIsWithinTheBoundOfItsPieceOnEveryInstructionSe
   EXPECT_GT(held, 10000);
 }
 
+TEST(EvaluateBatch, Law1TheBoundOfPointsStaysBelowItsFormula) {
+  int held = 0;
+  for (const SurfaceCase& c : validation::surface_cases({7, 1})) {
+    if (!c.weights.empty()) continue;
+    double largest = 0;
+    for (const double x : c.points) largest = std::max(largest, std::fabs(x));
+    const double formula =
+        3 * (c.degree_u + c.degree_v + 1) * 0x1p-53 * std::ldexp(largest, c.degree_u + c.degree_v) * (1 + 0x1p-30);
+    EXPECT_LE(made(c).error_bound(SurfaceVector::point), formula + 0x1p-1040) << c.group << "/" << c.name;
+    ++held;
+  }
+  EXPECT_GT(held, 20);
+}
+
 TEST(EvaluateBatch, Law2SameBitsWhateverThePlaceLayoutAndInstructionSet) {
   for (const InstructionSet set : available_instruction_sets())
     for (const KnownSurface& known : corpus()) {
@@ -367,6 +381,39 @@ TEST(EvaluateBatch, Law4ZerosOfTheDenominatorAreNamed) {
     const auto result = surface.evaluate_grid(grid_u, grid_v, g.out, options);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().where, "parameter 2");
+  }
+}
+
+TEST(EvaluateBatch, DegreesFarBeyondTheUsualWorkInEveryCall) {
+  const int p = 2, q = 40;
+  std::vector<double> ku(p + 1, 0.0), kv(q + 1, 0.0), points, xs;
+  ku.resize(2 * p + 2, 1.0);
+  kv.resize(2 * q + 2, 1.0);
+  for (int i = 0; i <= p; ++i)
+    for (int j = 0; j <= q; ++j) points.insert(points.end(), {double(i), j / 40.0, std::cos(3.0 * i + j)});
+  const SurfaceData data{p, q, ku, kv, points, {}};
+  const BatchSurface surface = *BatchSurface::make(data);
+  const auto patch = validation::exact_patch(data);
+  const std::vector<double> u = {0, 0.3, 1}, v = {0, 0.1, 0.5, 0.99, 1};
+  for (const InstructionSet set : available_instruction_sets()) {
+    SurfaceBatchOptions options;
+    options.instructions = set;
+    Results grid(15), rounded(15, 1);
+    ASSERT_TRUE(surface.evaluate_grid(u, v, grid.out, options));
+    std::vector<double> us, vs;
+    for (int i = 0; i < 15; ++i) {
+      us.push_back(u[i / 5]);
+      vs.push_back(v[i % 5]);
+    }
+    ASSERT_TRUE(surface.evaluate_correctly_rounded(us, vs, rounded.out.point, options));
+    for (int i = 0; i < 15; ++i) {
+      const auto exact = validation::exact_values(patch, us[i], vs[i], Side::right, 0).vectors[0];
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(rounded.numbers[0][3 * i + k], nearest_double(exact[k]));
+        EXPECT_LE(abs(from_double(grid.numbers[0][3 * i + k]) - exact[k]),
+                  from_double(surface.pieces().bounds[0].error[0]));
+      }
+    }
   }
 }
 

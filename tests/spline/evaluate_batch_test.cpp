@@ -50,7 +50,13 @@ TEST(CurveBatch, Law1EachNumberIsWithinTheBoundOfItsPieceOnEveryInstructionSet) 
       const CurveCase& c = known.data;
       const BatchCurve curve = made(c);
       Results r(c.t.size());
-      ASSERT_TRUE(curve.evaluate(c.t, r.out, options_of(c, set))) << c.name;
+      const auto result = curve.evaluate(c.t, r.out, options_of(c, set));
+      if (!result) {
+        // Only for weights that vanish beside others: no bound was promised.
+        ASSERT_EQ(result.error().code, ErrorCode::vanishing_weight) << c.name;
+        ASSERT_FALSE(curve.pieces().safe_weights);
+        continue;
+      }
       const kernels::Axis& axis = curve.pieces().t;
       const double* begins = axis.begins(c.side == Side::left);
       for (std::size_t i = 0; i < c.t.size(); ++i) {
@@ -76,7 +82,7 @@ TEST(CurveBatch, Law2SameBitsWhateverThePlaceOrderAndInstructionSet) {
       const BatchCurve curve = made(c);
       const std::size_t n = c.t.size();
       Results all(n), points(n, 1);
-      ASSERT_TRUE(curve.evaluate(c.t, all.out, options_of(c, set)));
+      if (!curve.evaluate(c.t, all.out, options_of(c, set)) && !curve.pieces().safe_weights) continue;
       ASSERT_TRUE(curve.evaluate(c.t, points.out, options_of(c, set)));
       ASSERT_EQ(points.numbers[0], all.numbers[0]);
       for (const InstructionSet second : available_instruction_sets())

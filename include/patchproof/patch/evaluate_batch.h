@@ -10,21 +10,24 @@
 // for an error's text and for threads > 1).
 //
 // REQUIRES  rounding to nearest; outputs do not overlap the parameters; any alignment, any count, 0 included.
-// ENSURES   (1) each number is within error_bounds.h's bound of the exact value of the formula at the given doubles;
+// ENSURES   (1) |computed − exact| ≤ error_bound() in each coordinate, exact: the formula's value at the given doubles;
+//           for points without weights that is at most 3(p + q + 1) · 2^-53 · 2^(p+q) · max |P| (1 + 2^-30);
 //           (2) the same (u,v) gives the same bits: whatever its place, the count, the layout, scattered or grid, the
 //           number of threads, whatever else is asked for, and on every instruction set with fused multiply-add;
 //           (3) both ends of the domain have values; at a knot the side chooses the limit;  (4) a parameter outside the
-//           domain, or NaN, or a zero of the denominator ends the call with an error that names its index. Of the output,
-//           whole tiles before that index may be written, nothing after the index's tile;
+//           domain, or NaN, or where the denominator is zero (or so small, below 2^-900 of the largest weight, that double
+//           knows nothing of it) ends the call with an error that names its index. Of the output, whole tiles before that
+//           index may be written, nothing after the index's tile;
 //           (5) |point − exact| ≤ bound[i] in each coordinate (evaluate_bounded);  (6) lower[i] ≤ exact ≤ upper[i]
 //           (evaluate_interval);  (7) evaluate_correctly_rounded: the double nearest to the exact coordinate, the even one
-//           of two;  (8) evaluate_compensated: as if in twice the precision, then rounded: error ≤ (1/2 + 2^-20) ulp but
-//           where the sum of the moduli of the terms exceeds 2^30 times the value.
+//           of two;  (8) evaluate_compensated: as if in twice the precision, then rounded: for degrees up to 8 the error
+//           is at most (1/2 + 2^-20) ulp where the moduli of the terms sum up to at most 2^20 times the value.
 // ERRORS    make: bad_degree, wrong_count, bad_number (NaN, infinite, overflowing), decreasing_knots, empty_domain.
 //           evaluate…: outside_domain, vanishing_weight.
-// COST      validation/bench measures it. make: about a microsecond for each polynomial piece of degree (3, 3).
+// COST      validation/bench measures it. make: a few microseconds for each polynomial piece of degree (3, 3).
 // NEIGHBOURS bspline_patch.h, rational_patch.h (the exact templates, the oracle of the tests), error_bounds.h.
-// TEST      tests/patch/evaluate_batch_test.cpp checks (1)–(6), correctly_rounded_test.cpp (7), (8).
+// TEST      tests/patch/evaluate_batch_test.cpp checks (1)–(6), correctly_rounded_test.cpp (7), (8); patchproof validate
+//           all of them over a larger corpus.
 #pragma once
 
 #include <memory>
@@ -41,6 +44,8 @@ struct SurfaceData {
   std::span<const double> points;   // x y z of each control point, j (along v) running fastest
   std::span<const double> weights;  // of each control point; empty: all 1
 };
+
+enum class SurfaceVector { point, du, dv, duu, duv, dvv };
 
 // What is wanted, and where it goes. Only what is asked for is computed.
 struct SurfaceOutput {
@@ -65,13 +70,17 @@ class BatchSurface {
   int degree(Direction d) const;
   bool is_rational() const;
 
-  // Item i at (u[i], v[i]), in any order. REQUIRES as many u as v.
+  // Of evaluate and evaluate_grid, everywhere: the largest of the pieces' bounds (kernels/error_bounds.h). +infinity where
+  // a weight is not positive or below 2^-500 of the largest: evaluate_bounded knows more there.
+  double error_bound(SurfaceVector vector) const;
+
+  // Item i at (u[i], v[i]), in any order. REQUIRES as many u as v, here and below.
   Result<BatchSummary> evaluate(std::span<const double> u, std::span<const double> v, const SurfaceOutput& out,
                                 const SurfaceBatchOptions& options = {}) const;
   // Item i · v.size() + j at (u[i], v[j]).
   Result<BatchSummary> evaluate_grid(std::span<const double> u, std::span<const double> v, const SurfaceOutput& out,
                                      const SurfaceBatchOptions& options = {}) const;
-  // bound[i] ≥ |computed − exact| in each coordinate of point i.
+  // bound[i] ≥ |computed − exact| in each coordinate of point i; +infinity where the denominator may be zero.
   Result<BatchSummary> evaluate_bounded(std::span<const double> u, std::span<const double> v, const VectorArray& point,
                                         double* bound, const SurfaceBatchOptions& options = {}) const;
   Result<BatchSummary> evaluate_interval(std::span<const double> u, std::span<const double> v, const VectorArray& lower,

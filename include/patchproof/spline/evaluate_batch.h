@@ -8,17 +8,18 @@
 // one without locks, and no call allocates (but for an error's text and for threads > 1).
 //
 // REQUIRES  rounding to nearest; output arrays do not overlap the parameters; any alignment, any count, 0 included.
-// ENSURES   (1) each number is within error_bounds.h's bound of the exact one, the exact value of the formula above at the
-//           given doubles;  (2) the same parameter gives the same bits: whatever its place, the count, the layout, the
+// ENSURES   (1) |computed − exact| ≤ error_bound(derivative) in each coordinate, exact: the formula's value at the given
+//           doubles; for points without weights that is at most 3(p + 1) · 2^-53 · 2^p · max |P| (1 + 2^-30);  (2) the same parameter gives the same bits: whatever its place, the count, the layout, the
 //           number of threads, whether derivatives are asked for, and on every instruction set with fused multiply-add;
 //           (3) both ends of the domain have values; at a knot `side` chooses the limit;  (4) a parameter outside the
-//           domain, or NaN, or a zero of the denominator ends the call with an error that names its index. Of the output,
-//           whole tiles of parameters before that index are written, none after the index's tile.
+//           domain, or NaN, or where the denominator is zero (or so small, below 2^-900 of the largest weight, that double
+//           knows nothing of it) ends the call with an error that names its index. Of the output, whole tiles before that
+//           index may be written, nothing after the index's tile.
 // ERRORS    make: bad_degree, wrong_count, bad_number (NaN, infinite or overflowing), decreasing_knots, empty_domain.
 //           evaluate: outside_domain, vanishing_weight.
 // COST      see validation/bench; per value of degree p about 3(p + 1) fused operations on a vector of parameters.
 // SOURCE    Horner's rule with derivatives: N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., §5.2.
-// NEIGHBOURS curve.h (the exact template, the oracle of the tests), patch/error_bounds.h.
+// NEIGHBOURS curve.h (the exact template, the oracle of the tests), patch/evaluate_batch.h.
 // TEST      tests/spline/evaluate_batch_test.cpp checks (1)–(4).
 #pragma once
 
@@ -86,6 +87,10 @@ class BatchCurve {
   double domain_end() const;
   int degree() const;
   bool is_rational() const;
+
+  // Of C, C', C'' (derivative 0, 1, 2): the largest of the pieces' bounds (kernels/error_bounds.h). +infinity where a
+  // weight is not positive or below 2^-500 of the largest.
+  double error_bound(int derivative) const;
 
   // Item i at t[i]. Sorted parameters are fastest, any order is right.
   Result<BatchSummary> evaluate(std::span<const double> t, const CurveOutput& out,
