@@ -24,7 +24,8 @@ def main():
             checked.update(part for part in parts if part in member)
         elif any(part in member for part in parts):
             kind, _, name = line[17:].partition(" ")
-            if kind and kind in "WVu" and not line.startswith(" "):  # defined ones have an address
+            # Defined ones have an address. DW.ref symbols are addresses for the unwinder, no code.
+            if kind and kind in "WVu" and not line.startswith(" ") and not name.startswith("DW.ref."):
                 found.append(f"{member}: {name}")
     for symbol in found:
         print(symbol)
