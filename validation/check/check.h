@@ -11,6 +11,7 @@
 //   compensated     error ≤ (1/2 + 2^-20) ulp where the terms do not cancel                 (8)
 //   C, C', C''      as S, for curves                                                        spline/evaluate_batch.h (1)
 //   refine, bezier  |computed − exact| ≤ the bound returned                                 patch/refine_batch.h (1)
+//   decide          C1 and G1 as the exact rung decides them                                join/decide_batch.h (1)–(3)
 // The bound of a unit normal follows from those of S_u and S_v (surface_check.cpp). A surface or curve of the corpus that
 // a kernel refuses is a violation too: each has values in double.
 //
@@ -60,6 +61,8 @@ using Tallies = std::map<TallyKey, Tally>;
 void check_surface(const SurfaceCase& s, const CheckOptions& options, Tallies& tallies);
 void check_curve(const CurveCase& c, const CheckOptions& options, Tallies& tallies);
 void check_refinement(const SurfaceCase& s, const CheckOptions& options, Tallies& tallies);
+// Joins of its own, drawn from the seed.
+void check_decisions(const CheckOptions& options, Tallies& tallies);
 
 // The whole corpus, in parallel.
 Tallies check_all(const CheckOptions& options);
