@@ -102,6 +102,7 @@ std::string json_text(const Tallies& tallies, const Options& o) {
   nlohmann::ordered_json json{
       {"tool", "patchproof"},  {"version", PATCHPROOF_VERSION}, {"schema", 1},
       {"command", "validate"}, {"seed", o.check.corpus.seed},   {"count", o.check.corpus.count}};
+  if (!o.check.corpus.group.empty()) json["group"] = o.check.corpus.group;
   for (const InstructionSet set : o.check.sets) json["instruction_sets"].push_back(to_string(set));
   for (const auto& [key, line] : lines(tallies)) {
     nlohmann::ordered_json entry{{"kernel", key.kernel}, {"instruction_set", to_string(key.set)}};
@@ -177,6 +178,11 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("--count", o->check.corpus.count, "random parameters of each, besides the special ones [12]")
       ->check(CLI::Range(0, 1'000'000))
       ->option_text("N");
+  std::vector<std::string> groups;
+  for (const validation::Group& g : validation::groups()) groups.push_back(g.name);
+  command->add_option("--group", o->check.corpus.group, "only this group of surfaces and curves")
+      ->check(CLI::IsMember(groups))
+      ->option_text("NAME");
   command->add_option("--instructions", o->instructions, "only this instruction set")->option_text("NAME");
   command->add_option("--json", o->json, "write JSON")->option_text("FILE|-");
   command->add_option("--junit", o->junit, "write JUnit's XML")->option_text("FILE|-");

@@ -76,19 +76,20 @@ class Validate(unittest.TestCase):
         # A correctly rounded number that is the next double instead.
         for kernel, by in (("rounded", 1), ("same bits", 1), ("compensated", 2), ("interval", 100_000),
                            ("bounded", 100_000), ("refine", 100_000), ("C", 100_000), ("grid S_uv", 100_000), ("decide", 1)):
-            done = validate("--count", 0, "--instructions", "portable", "--break", kernel, "--break-by", by)
+            done = validate("--count", 0, "--group", "unclamped", "--instructions", "portable", "--break", kernel,
+                            "--break-by", by)
             self.assertEqual(done.returncode, 1, kernel)
             self.assertIn(f"violated: {kernel} on portable".encode(), done.stdout)
 
     def test_the_same_bytes_again(self):
-        words = ("--count", 0, "--instructions", "portable", "--json", "-")
+        words = ("--count", 0, "--group", "random", "--json", "-")
         first = validate(*words)
         self.assertEqual(first.stdout, validate(*words).stdout)
         self.assertNotEqual(first.stdout, validate(*words, "--seed", 2).stdout)
 
     def test_bad_usage(self):
         for words in (["--count", "-1"], ["--instructions", "mmx"], ["--json", "-", "--junit", "-"], ["extra"],
-                      ["--break", "nothing"], ["--seed", "x"]):
+                      ["--break", "nothing"], ["--group", "nothing"], ["--seed", "x"]):
             done = validate(*words)
             self.assertEqual(done.returncode, 2, words)
             self.assertEqual(done.stdout, b"", words)

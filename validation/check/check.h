@@ -15,6 +15,9 @@
 // The bound of a unit normal follows from those of S_u and S_v (surface_check.cpp). A surface or curve of the corpus that
 // a kernel refuses is a violation too: each has values in double.
 //
+// Left out are parameters at which a kernel gives up because of the denominator, and rightly: it is exactly less than what
+// rounding can make of it, (3(p + q) + 3) 2^-53 2^(p + q) of the largest weight (law (4) of evaluate_batch.h).
+//
 // ENSURES  (1) violations are counted by exact comparison of Rationals;  (2) the same options give the same result on the
 //          same machine;  (3) a kernel that is off by more than its bound anywhere in the corpus is reported.
 // TEST     tests/cli/validate_test.py; --break makes a kernel lie, which must be noticed.

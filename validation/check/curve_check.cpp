@@ -47,7 +47,9 @@ std::optional<std::vector<double>> evaluate(const BatchCurve& curve, const Curve
 
 }  // namespace
 
-void check_curve(const CurveCase& c, const CheckOptions& options, Tallies& tallies) {
+void check_curve(const CurveCase& given, const CheckOptions& options, Tallies& tallies) {
+  const BsplineCurve<Rational, 4> exact_c = exact_curve(given.data());
+  CurveCase c = given;
   const auto tally = [&](const std::string& kernel, InstructionSet set) -> Tally& {
     return tallies[{kernel, set, c.group}];
   };
@@ -57,7 +59,22 @@ void check_curve(const CurveCase& c, const CheckOptions& options, Tallies& talli
     if (t.violations++ == 0) t.violation = c.name + ": refused: " + curve.error().text();
     return;
   }
-  const BsplineCurve<Rational, 4> exact_c = exact_curve(c.data());
+  for (const InstructionSet set : options.sets)
+    if (!c.weights.empty())
+      drop_vanishing(
+          [&] {
+            std::vector<double> room(3 * c.t.size());
+            CurveOutput to;
+            to.point = VectorArray::interleaved(room.data());
+            CurveBatchOptions call;
+            call.side = c.side;
+            call.instructions = set;
+            return curve->evaluate(c.t, to, call);
+          },
+          [&](std::size_t i) {
+            return is_negligible(evaluate(exact_c, from_double(c.t[i]), c.side), c.weights, c.degree);
+          },
+          [&](std::size_t i) { c.t.erase(c.t.begin() + static_cast<std::ptrdiff_t>(i)); });
   const KnotVector<double> knots = KnotVector<double>::make(c.degree, c.knots).value();
   std::vector<CurveTruth> truth;
   for (const double t : c.t) truth.push_back(exact_values(exact_c, t, c.side, 2));

@@ -79,6 +79,13 @@ double perhaps_broken(const CheckOptions& options, const std::string& kernel, do
   return computed;
 }
 
+bool is_negligible(const Vec<Rational, 4>& point, const std::vector<double>& weights, int degrees) {
+  double largest = 0;
+  for (const double w : weights) largest = std::max(largest, std::abs(w));
+  const Rational w = point[3] < Rational(0) ? Rational(-point[3]) : point[3];
+  return w < from_double(largest) * from_double(std::ldexp(3.0 * degrees + 3, degrees - 53));
+}
+
 void same_bits(Tally& tally, double a, double b, const std::function<std::string()>& place) {
   ++tally.numbers;
   if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b)) return;

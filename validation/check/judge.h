@@ -36,6 +36,22 @@ class Judge {
 // The number itself, or, of a kernel that is to be broken, another.
 double perhaps_broken(const CheckOptions& options, const std::string& kernel, double computed);
 
+// Is the denominator, the last coordinate of a homogeneous point, within rounding of zero? See check.h. `degrees`: p + q.
+bool is_negligible(const Vec<Rational, 4>& point, const std::vector<double>& weights, int degrees);
+
+// Drops the items at which call() gives up and may.
+template <class Call, class MayGiveUp, class Drop>
+void drop_vanishing(Call call, MayGiveUp may_give_up, Drop drop) {
+  for (;;) {
+    const Result<BatchSummary> done = call();
+    if (done || done.error().code != ErrorCode::vanishing_weight) return;
+    const std::string& where = done.error().where;  // "parameter 7"
+    const std::size_t item = std::stoul(where.substr(where.rfind(' ') + 1));
+    if (!may_give_up(item)) return;
+    drop(item);
+  }
+}
+
 // Counts agreement of two numbers that should be the same, bit for bit.
 void same_bits(Tally& tally, double a, double b, const std::function<std::string()>& place);
 

@@ -5,6 +5,7 @@
 // for vectors |a/|a| − b/|b|| ≤ 2 |a − b| / |b|. Normalising rounds at most 6u more.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "kernels/pieces.h"
@@ -281,7 +282,35 @@ class SurfaceCheck {
 
 }  // namespace
 
-void check_surface(const SurfaceCase& s, const CheckOptions& options, Tallies& tallies) {
+void check_surface(const SurfaceCase& given, const CheckOptions& options, Tallies& tallies) {
+  SurfaceCase s = given;
+  const Result<BatchSurface> surface = BatchSurface::make(given.data());
+  if (surface && !s.weights.empty()) {
+    const auto patch = exact_patch(given.data());
+    const auto negligible = [&](double u, double v) {
+      return is_negligible(evaluate(patch, from_double(u), from_double(v), s.side, s.side), s.weights,
+                           s.degree_u + s.degree_v);
+    };
+    for (const InstructionSet set : options.sets) {
+      SurfaceBatchOptions call;
+      call.side_u = call.side_v = s.side;
+      call.instructions = set;
+      std::vector<double> room(3 * std::max(s.u.size(), s.grid_u.size() * s.grid_v.size()));
+      SurfaceOutput to;
+      to.point = VectorArray::interleaved(room.data());
+      drop_vanishing([&] { return surface->evaluate(s.u, s.v, to, call); },
+                     [&](std::size_t i) { return negligible(s.u[i], s.v[i]); },
+                     [&](std::size_t i) {
+                       s.u.erase(s.u.begin() + static_cast<std::ptrdiff_t>(i));
+                       s.v.erase(s.v.begin() + static_cast<std::ptrdiff_t>(i));
+                     });
+      const auto columns = s.grid_v.size();
+      drop_vanishing(
+          [&] { return surface->evaluate_grid(s.grid_u, s.grid_v, to, call); },
+          [&](std::size_t i) { return negligible(s.grid_u[i / columns], s.grid_v[i % columns]); },
+          [&](std::size_t i) { s.grid_u.erase(s.grid_u.begin() + static_cast<std::ptrdiff_t>(i / columns)); });
+    }
+  }
   SurfaceCheck(s, options, tallies).run();
 }
 

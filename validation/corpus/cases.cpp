@@ -236,6 +236,7 @@ std::vector<SurfaceCase> surface_cases(const CorpusOptions& options) {
   for (std::size_t g = 0; g < recipes().size(); ++g)
     for (int k = 0; k < recipes()[g].cases; ++k) {
       const Recipe& r = recipes()[g];
+      if (!options.group.empty() && options.group != r.group.name) continue;
       Random random = random_of(options, g, k, 0);
       SurfaceCase c;
       c.group = r.group.name;
@@ -271,6 +272,7 @@ std::vector<CurveCase> curve_cases(const CorpusOptions& options) {
   for (std::size_t g = 0; g < recipes().size(); ++g)
     for (int k = 0; k < recipes()[g].cases; ++k) {
       const Recipe& r = recipes()[g];
+      if (!options.group.empty() && options.group != r.group.name) continue;
       Random random = random_of(options, g, k, 7);
       CurveCase c;
       c.group = r.group.name;

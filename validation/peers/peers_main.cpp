@@ -16,7 +16,7 @@ using namespace patchproof;
 using namespace patchproof::peers;
 
 struct Options {
-  validation::CorpusOptions corpus{1, 12};
+  validation::CorpusOptions corpus;
   unsigned seconds = 60;
   std::vector<std::string> plugins, only;
   std::string json;
