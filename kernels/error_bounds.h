@@ -8,7 +8,8 @@
 // and in each coordinate
 //     |computed − exact| ≤ Σ_ij γ(3(i + j) + 3) |c_ij| |x|^i |y|^j                                            (pointwise)
 //                        ≤ γ(3(p + q) + 3) · 2^(p+q) · max |P|      P: the control points of the piece's spans  (a priori)
-// (the |c_ij| of a Bernstein polynomial of degree p about its middle sum up to C(p, i), together 2^p).
+// (about its middle, with |x| at the ends, the moduli of the i-th Bernstein polynomial's terms sum up to C(p, i), together
+// 2^p; the piece's own Bernstein points are means of the P).
 // The same counting, for derivatives and quotients, is done by running the bodies of horner.h on Magnitude: the size of a
 // number and of its error. Where w has a zero in a piece, the a-priori bound is +infinity and the pointwise one speaks:
 //     |S − exact| ≤ (E_A + |S| E_w) / (|w| − E_w) + 3u |S|,    E_A, E_w: the bounds of numerator and denominator.
@@ -100,8 +101,9 @@ inline Magnitude reciprocal(const WeightMagnitude& w) {
 // correction, of which e is computed. With the parameter x + x′ (|x′| ≤ u|x| ≤ u) and the coefficient c + c′ + c″, where
 // |c′| ≤ u|c| is known and |c″| is not, a step is exactly
 //     R x + c:   r ← fl(fl(r x) + c),   E ← E x + E x′ + r x′ + π + σ + c′ + c″,   |π| ≤ u|r x|, |σ| ≤ u|fl(r x) + c|
-// and e ← e x + (r x′ + ((π + σ) + c′)) in double leaves out E x′ and c″. Let M = Σ|c_ij|, n = p + q + 2 the number of
-// steps from an innermost coefficient to the end (rows count as coefficients with c′ = e). Up to factors 1 + 2⁻⁴⁰:
+// and e ← e x + (r x′ + ((π + σ) + c′)) in double leaves out E x′ and c″. Let M = Σ|c_ij||x|^i|y|^j, n = p + q + 2 the number of
+// steps from an innermost coefficient to the end (rows count as coefficients with c′ = e). What a step makes of r, and
+// errs, is multiplied by the remaining powers of x and y: measured by that, up to factors 1 + 2⁻⁴⁰,
 // |r| ≤ M; each step adds at most r x′ + π + σ + c′ ≤ 4uM to E, so |E| ≤ 4nuM; each step adds to |e − E| at most
 // u|E| for what is left out and, for five roundings of sums no larger than |E| + 4uM, 5u(|E| + 4uM): together
 //     |e − E| ≤ n (u·4nuM + 5u(4n + 4)uM) + Σ|c″| ≤ (24n² + 20n) u² M + Σ|c″|.

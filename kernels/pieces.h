@@ -2,7 +2,7 @@
 // What a batch curve or surface holds: its polynomial pieces as power series, laid out for the kernels. Plain data,
 // immutable after it is prepared.
 //
-//   piece (a, b), x = (u − u.centre[a]) · u.scale[a], y likewise:  A(u,v) = Σ_ij c_ij x^i y^j,  |x|, |y| ≤ 1
+//   piece (a, b), x = (u − u.centre[a]) · u.scale[a], y likewise:  A(u,v) = Σ_ij c_ij x^i y^j,  |x|, |y| < 1
 //
 // with c_ij = (x, y, z, w) homogeneous; of a surface without weights the fourth number is that of its bound (bounded.h).
 // Scales are powers of two, so that factors of derivatives are exact, and centres are doubles: the only rounding of x is
@@ -20,6 +20,7 @@ struct Axis {
   int count = 0;                      // of spans
   double begin = 0, end = 0;          // the domain, closed
   std::vector<double> centre, scale;  // of each span
+  std::vector<double> reach;          // the largest |x| in each span
   std::vector<int> knot_span;         // the span's number in the knot vector
   // Span s begins at right[s] for the limits from the right, at left[s] (the next double) for those from the left;
   // [count] is +infinity. The first is the domain's begin.

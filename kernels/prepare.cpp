@@ -85,6 +85,7 @@ Result<Axis> make_axis(const KnotVector<double>& knots, const char* name) {
     a.knot_span.push_back(i);
     a.centre.push_back(centre);
     a.scale.push_back(std::ldexp(1.0, -exponent));
+    a.reach.push_back(std::ldexp(half, -exponent));
     a.right.push_back(from);
     a.left.push_back(a.count == 0 ? from : std::nextafter(from, kInfinity));
     ++a.count;
@@ -144,8 +145,8 @@ PointMagnitude magnitude_of(const double* high, const double* error, double smal
   return out;
 }
 
-// |x| ≤ 1, rounded once.
-Magnitude local_parameter() { return Magnitude(1, kUnitRoundoff); }
+// |x| ≤ reach, rounded once.
+Magnitude local_parameter(double reach) { return Magnitude(reach, kUnitRoundoff * reach); }
 
 template <class Jet>
 void keep_bounds(const Jet& jet, int count, PieceBounds& out) {
@@ -216,6 +217,7 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
       for (int i = 0; i < order_u; ++i)
         for (int j = 0; j < order_v; ++j) {
           const std::size_t at = s.at(i, j);
+          const double size = std::pow(s.u.reach[a], i) * std::pow(s.v.reach[b], j) * kBoundSlack;
           double largest = 0, largest_error = 0;
           for (int k = 0; k < numbers; ++k) {
             DoubleDouble sum(0);
@@ -228,8 +230,8 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
             errors[at + k] = std::fabs(sum.low()) + sum.error();
             largest = std::max(largest, std::fabs(sum.high()));
             largest_error = std::max(largest_error, sum.error());
-            sum_of_moduli[k] += std::fabs(sum.high());
-            sum_of_errors[k] += sum.error();
+            sum_of_moduli[k] += std::fabs(sum.high()) * size;
+            sum_of_errors[k] += sum.error() * size;
           }
           // The fourth number of a piece without weights: the term of its pointwise bound.
           if (!s.rational) high[at + 3] = (gamma(3 * (i + j) + 3) * largest + largest_error) * kBoundSlack + kUnderflow;
@@ -242,13 +244,13 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
         for (int j = 0; j < order_v; ++j)
           smallest_weight =
               std::min(smallest_weight, net->weight[static_cast<std::size_t>(first_u + i) * nv + first_v + j]);
+      const Magnitude x = local_parameter(s.u.reach[a]), y = local_parameter(s.v.reach[b]);
       HornerRows<2, PointMagnitude> sums;
       for (int j = q; j >= 0; --j) {
         Horner<2, PointMagnitude> row;
         for (int i = p; i >= 0; --i)
-          row.push(p - i, magnitude_of(high + s.at(i, j), errors.data() + s.at(i, j), smallest_weight),
-                   local_parameter());
-        sums.push(q - j, row.d, local_parameter());
+          row.push(p - i, magnitude_of(high + s.at(i, j), errors.data() + s.at(i, j), smallest_weight), x);
+        sums.push(q - j, row.d, y);
       }
       const auto jet = surface_jet<2>(sums, PowerOfTwo(s.u.scale[a]), PowerOfTwo(s.v.scale[b]));
       bounds.numerator_error = jet.d[0].coordinate.error;
@@ -316,9 +318,9 @@ Result<CurvePieces> prepare(const CurveData& data) {
         errors[4 * i + k] = std::fabs(sum.low()) + sum.error();
       }
     }
+    const Magnitude x = local_parameter(c.t.reach[s]);
     Horner<2, PointMagnitude> h;
-    for (int i = p; i >= 0; --i)
-      h.push(p - i, magnitude_of(high + 4 * i, errors.data() + 4 * i, smallest_weight), local_parameter());
+    for (int i = p; i >= 0; --i) h.push(p - i, magnitude_of(high + 4 * i, errors.data() + 4 * i, smallest_weight), x);
     const auto jet = curve_jet<2>(h, PowerOfTwo(c.t.scale[s]));
     bounds.numerator_error = jet.d[0].coordinate.error;
     bounds.weight_error = jet.d[0].weight.error;

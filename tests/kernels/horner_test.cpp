@@ -121,8 +121,8 @@ TEST(KernelBodies, OnTrackedTheirErrorsStayWithinThePreparedBounds) {
         for (const double x : {-0.9375, 0.0, 0.3, 0.999})
           for (const double y : {-0.7, 0.25, 1.0}) {
             const auto parameter = [](double t) { return Tracked(t, 0x1p-53 * std::fabs(t)); };
-            auto jet = jet_at<Tracked>(s.u.degree, s.v.degree, parameter(x), parameter(y), Power(s.u.scale[a]),
-                                       Power(s.v.scale[b]), coefficient);
+            auto jet = jet_at<Tracked>(s.u.degree, s.v.degree, parameter(x * s.u.reach[a]), parameter(y * s.v.reach[b]),
+                                       Power(s.u.scale[a]), Power(s.v.scale[b]), coefficient);
             if (s.rational) jet = kernels::quotient<2>(jet);
             for (int m = 0; m < 6; ++m)
               for (int k = 0; k < 3; ++k) {

@@ -28,7 +28,7 @@ const std::vector<KnownSurface>& corpus() {
   static const std::vector<KnownSurface> known = [] {
     std::vector<SurfaceCase> some;
     std::map<std::string, int> of_group;
-    for (SurfaceCase& c : validation::surface_cases({7, 3}))
+    for (SurfaceCase& c : validation::surface_cases({9, 3}))
       if (++of_group[c.group] <= 1) some.push_back(std::move(c));
     return validation::with_truth(std::move(some));
   }();
@@ -86,7 +86,7 @@ TEST(EvaluateBatch, Law1EachNumberIsWithinTheBoundOfItsPieceOnEveryInstructionSe
 
 TEST(EvaluateBatch, Law1TheBoundOfPointsStaysBelowItsFormula) {
   int held = 0;
-  for (const SurfaceCase& c : validation::surface_cases({7, 1})) {
+  for (const SurfaceCase& c : validation::surface_cases({9, 1})) {
     if (!c.weights.empty()) continue;
     double largest = 0;
     for (const double x : c.points) largest = std::max(largest, std::fabs(x));
