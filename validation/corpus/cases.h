@@ -40,8 +40,8 @@ struct CurveCase {
 
 struct CorpusOptions {
   std::uint64_t seed = 1;
-  int count = 12;     // parameters of a surface or curve, besides the special ones
-  std::string group;  // only this one; empty: all
+  int count = 12;          // parameters of a surface or curve, besides the special ones
+  std::string group = {};  // only this one; empty: all
 };
 
 // What makes the cases of a group hard, in one line each, in the order of the corpus.
