@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -39,27 +41,51 @@ std::string cell(const Row& r, std::size_t quantity) {
   return text.empty() ? "-" : text;
 }
 
-// Rows: groups. Columns: peers with their variants that offer the quantity.
-std::string table(const std::vector<Row>& rows, Arrangement arrangement, std::size_t quantity) {
-  std::vector<std::string> columns;
+// The cells of one way to ask, from the first group to the last.
+struct Column {
+  std::string peer, variant;
+  std::vector<std::string> cells;
+  int alike = 0;  // further variants of the peer with the same cells
+};
+
+std::vector<Column> columns(const std::vector<Row>& rows, Arrangement arrangement, std::size_t quantity) {
+  std::vector<Column> all;
+  std::vector<bool> offered;
   for (const Row& r : rows) {
-    const std::string column = r.peer + " " + r.variant;
-    if (r.arrangement == arrangement && r.scores.by_quantity[quantity].offered > 0 &&
-        std::find(columns.begin(), columns.end(), column) == columns.end())
-      columns.push_back(column);
+    if (r.arrangement != arrangement) continue;
+    if (all.empty() || all.back().peer != r.peer || all.back().variant != r.variant) {
+      all.push_back({r.peer, r.variant, {}});
+      offered.push_back(false);
+    }
+    all.back().cells.push_back(cell(r, quantity));
+    offered.back() = offered.back() || r.scores.by_quantity[quantity].offered > 0;
   }
-  if (columns.empty()) return "";
+  std::vector<Column> out;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!offered[i]) continue;
+    const auto twin = std::find_if(out.begin(), out.end(),
+                                   [&](const Column& c) { return c.peer == all[i].peer && c.cells == all[i].cells; });
+    if (twin == out.end())
+      out.push_back(all[i]);
+    else
+      ++twin->alike;
+  }
+  return out;
+}
+
+// Rows: groups. Columns: peers with their variants that offer the quantity; variants with the same results share one.
+std::string table(const std::vector<Row>& rows, Arrangement arrangement, std::size_t quantity) {
+  const std::vector<Column> all = columns(rows, arrangement, quantity);
+  if (all.empty()) return "";
   std::string text = fmt::format("\n{}, {}: worst error in ulp\n\n| group |", to_string(arrangement),
                                  to_string(kAllQuantities[quantity]));
-  for (const std::string& c : columns) text += " " + c + " |";
+  for (const Column& c : all)
+    text += fmt::format(" {} {}{} |", c.peer, c.variant, c.alike > 0 ? fmt::format(" and {} alike", c.alike) : "");
   text += "\n|---|";
-  for (std::size_t i = 0; i < columns.size(); ++i) text += "---|";
-  for (const validation::Group& g : validation::groups()) {
-    text += fmt::format("\n| {} |", g.name);
-    for (const std::string& c : columns)
-      for (const Row& r : rows)
-        if (r.group == g.name && r.arrangement == arrangement && r.peer + " " + r.variant == c)
-          text += " " + cell(r, quantity) + " |";
+  for (std::size_t i = 0; i < all.size(); ++i) text += "---|";
+  for (std::size_t g = 0; g < validation::groups().size(); ++g) {
+    text += fmt::format("\n| {} |", validation::groups()[g].name);
+    for (const Column& c : all) text += " " + c.cells[g] + " |";
   }
   return text + "\n";
 }
