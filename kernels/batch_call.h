@@ -42,12 +42,20 @@ Result<BatchSummary> run(std::size_t count, std::size_t share, int threads, cons
     }
   }
   if (all.stop == kernels::Stop::none) return BatchSummary{all.undefined_normals};
-  if (all.stop == kernels::Stop::vanishing_weight)  // known to a tile: find the item
-    while (first_bad + 1 < count && part(first_bad, 1).stop == kernels::Stop::none) ++first_bad;
+  // A zero of the denominator is known to its tile only, and may stand before a parameter outside the domain in it.
+  constexpr std::size_t kLargestTile = 4096;
+  if (all.stop == kernels::Stop::outside_domain) first_bad -= std::min(first_bad, kLargestTile);
+  while (first_bad + 1 < count) {
+    const kernels::Stop stop = part(first_bad, 1).stop;
+    if (stop != kernels::Stop::none) all.stop = stop;
+    if (stop != kernels::Stop::none) break;
+    ++first_bad;
+  }
   const bool outside = all.stop == kernels::Stop::outside_domain;
   return Error{outside ? ErrorCode::outside_domain : ErrorCode::vanishing_weight,
                "parameter " + std::to_string(first_bad),
-               outside ? "the parameter lies outside the domain" : "the denominator is zero, or too small for double, at this parameter",
+               outside ? "the parameter lies outside the domain"
+                       : "the denominator is zero, or too small for double, at this parameter",
                describe(first_bad)};
 }
 

@@ -15,10 +15,10 @@ namespace patchproof::kernels::HWY_NAMESPACE {
 struct BoundedSinks {
   Sink point, lower, upper;
   double* bound;
-  BoundedSinks(const SurfaceCall& call, std::size_t count, bool whole_vectors)
-      : point(call.out.point, count, whole_vectors),
-        lower(call.lower, count, whole_vectors),
-        upper(call.upper, count, whole_vectors),
+  BoundedSinks(const SurfaceCall& call, std::size_t count)
+      : point(call.out.point, count, false),
+        lower(call.lower, count, false),
+        upper(call.upper, count, false),
         bound(call.bound) {}
 };
 
@@ -51,8 +51,10 @@ PATCHPROOF_INLINE void put_bounded(const BoundedSinks& out, const Lanes (&point)
   V low[3], high[3];
   for (int k = 0; k < 3; ++k) {
     const V reach = hn::MulAdd(hn::Abs(point[k].v), two_units, hn::Mul(bound, hn::Set(D(), kBoundSlack)));
-    low[k] = hn::Sub(point[k].v, reach);
-    high[k] = hn::Add(point[k].v, reach);
+    // Nothing is known where the bound or the point is no number.
+    const auto known = hn::And(hn::Lt(reach, hn::Inf(D())), hn::Lt(hn::Abs(point[k].v), hn::Inf(D())));
+    low[k] = hn::IfThenElse(known, hn::Sub(point[k].v, reach), hn::Neg(hn::Inf(D())));
+    high[k] = hn::IfThenElse(known, hn::Add(point[k].v, reach), hn::Inf(D()));
   }
   put(out.lower, low[0], low[1], low[2]);
   put(out.upper, high[0], high[1], high[2]);
@@ -65,7 +67,7 @@ PATCHPROOF_INLINE V rational_bound(V numerator_error, V weight_error, const Lane
           numerator = hn::MulAdd(size, weight_error, numerator_error);
   const V bound = hn::MulAdd(size, hn::Set(D(), 3 * kUnitRoundoff), hn::Div(numerator, smallest));
   const V safe = hn::MulAdd(bound, hn::Set(D(), kBoundSlack), hn::Set(D(), kUnderflow));
-  return hn::IfThenElse(hn::Gt(smallest, hn::Zero(D())), safe, hn::Inf(D()));
+  return hn::IfThenElse(hn::And(hn::Gt(smallest, hn::Zero(D())), hn::Lt(safe, hn::Inf(D()))), safe, hn::Inf(D()));
 }
 
 template <bool Rational, int DegreeU, int DegreeV>
@@ -178,7 +180,7 @@ struct BoundedKernel {
 
   static Progress all(const SurfacePieces& s, const SurfaceCall& call, const double* u, const double* v,
                       std::size_t count) {
-    const BoundedSinks out(call, count, s.u.count == 1 && s.v.count == 1);
+    const BoundedSinks out(call, count);
     return for_tiles(
         s, call, u, v, count,
         [&](std::int64_t span_u, std::int64_t span_v, const double* us, const double* vs, std::size_t n,

@@ -50,6 +50,8 @@ struct CurveKernel {
         for (int b = 0; b < kGroups; ++b)
           vanishing = hn::Or(vanishing, vanishes(jet.d[0].c[b][3].v, i + b * kLanes, count));
         jet = quotient<Order>(jet);
+        if (!c.safe_weights)
+          for (int b = 0; b < kGroups; ++b) vanishing = hn::Or(vanishing, overflowed(jet, b, i + b * kLanes, count));
       }
       for (int b = 0; b < kGroups; ++b) {
         const std::size_t from = i + static_cast<std::size_t>(b) * kLanes;
@@ -84,6 +86,7 @@ struct CurveKernel {
           good = good && (numbers[3] >= kSmallestWeight || numbers[3] <= -kSmallestWeight);
         }
         jet = quotient<Order>(jet);
+        if (!c.safe_weights) good = good && !overflowed(jet);
       }
       for (int m = 0; m <= Order; ++m) out.d[m].put(at + i, jet.d[m]);
     }
@@ -92,8 +95,9 @@ struct CurveKernel {
 
   // A tile of scattered parameters; runs of one piece go by lanes.
   static Progress all(const CurvePieces& c, const CurveOutput& wanted, bool left, const double* t, std::size_t count) {
-    const CurveSinks out{{Sink(wanted.point, count, c.t.count == 1), Sink(wanted.first, count, c.t.count == 1),
-                          Sink(wanted.second, count, c.t.count == 1)}};
+    const bool streamed = Order > 0 && c.t.count == 1;
+    const CurveSinks out{{Sink(wanted.point, count, streamed), Sink(wanted.first, count, streamed),
+                          Sink(wanted.second, count, streamed)}};
     Progress progress;
     std::int64_t span[kTile];
     HWY_ALIGN double x[kTile];
@@ -122,6 +126,7 @@ struct CurveKernel {
       if (!good) return {at, Stop::vanishing_weight, 0};
     }
     progress.good = count;
+    hwy::FlushStream();  // streamed results are visible to whoever learns that the call has ended
     return progress;
   }
 };

@@ -10,8 +10,13 @@ bool processor_has(InstructionSet set) {
     case InstructionSet::fastest:
     case InstructionSet::portable: return true;
 #if defined(PATCHPROOF_KERNELS_X86)
-    case InstructionSet::sse4: return __builtin_cpu_supports("sse4.2");
-    case InstructionSet::avx2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case InstructionSet::sse4:
+      return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
+    // All that the flags in CMakeLists.txt let the compiler use.
+    case InstructionSet::avx2:
+      return processor_has(InstructionSet::sse4) && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+             __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c") &&
+             __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("movbe") && __builtin_cpu_supports("popcnt");
     case InstructionSet::avx512:
       return processor_has(InstructionSet::avx2) && __builtin_cpu_supports("avx512f") &&
              __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&

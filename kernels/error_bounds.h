@@ -16,7 +16,7 @@
 // (With S̃ = A/w of the computed A, w the exact value is S̃ + (a − S̃ e)/(w + e) for some |a| ≤ E_A, |e| ≤ E_w; the reciprocal
 // and the product round S̃ twice.)
 // Underflow: every operation may lose 2⁻¹⁰⁷⁴; kUnderflow covers all operations of a kernel.
-// TEST     tests/patch/evaluate_batch_test.cpp holds computed results against them, tests/kernels/error_bounds_test.cpp
+// TEST     tests/patch/evaluate_batch_test.cpp holds computed results against them, tests/kernels/horner_test.cpp
 //          the counting against Tracked.
 #pragma once
 
@@ -108,7 +108,7 @@ inline Magnitude reciprocal(const WeightMagnitude& w) {
 // u|E| for what is left out and, for five roundings of sums no larger than |E| + 4uM, 5u(|E| + 4uM): together
 //     |e − E| ≤ n (u·4nuM + 5u(4n + 4)uM) + Σ|c″| ≤ (24n² + 20n) u² M + Σ|c″|.
 inline double compensated_error(int steps, double sum_of_moduli, double unknown) {
-  if (sum_of_moduli == 0) return unknown;  // a coordinate that is 0 everywhere is exactly 0
+  if (sum_of_moduli == 0 && unknown == 0) return 0;  // a coordinate that is 0 everywhere is exactly 0
   const double n = steps;
   return kUnderflow + ((24 * n * n + 20 * n) * kUnitRoundoff * kUnitRoundoff * sum_of_moduli + unknown) * kBoundSlack;
 }

@@ -43,6 +43,8 @@ struct GridKernel {
     if constexpr (kFixed)
       for (int m = 0; m <= Order; ++m)
         for (int j = 0; j <= DegreeV; ++j) fixed[m][j] = Value::all(buffer[m][j]);
+    const PieceBounds& bounds = s.bounds[static_cast<std::size_t>(span_u * s.v.count + span_v)];
+    const NormalScale normal_scale{Lanes(bounds.normal_scale_u), Lanes(bounds.normal_scale_v)};
     auto vanishing = hn::FirstN(D(), 0);
     for (std::size_t i = 0; i < count; i += kLanes) {
       Group<kGroups> y;
@@ -65,15 +67,16 @@ struct GridKernel {
       if constexpr (Rational) {
         vanishing = hn::Or(vanishing, vanishes(jet.d[0].c[0][3].v, i, count));
         jet = quotient<Order>(jet);
+        if (!s.safe_weights) vanishing = hn::Or(vanishing, overflowed(jet, 0, i, count));
       }
-      put_lanes<Order>(out, jet, 0, at + i, count - i, undefined);
+      put_lanes<Order>(out, normal_scale, jet, 0, at + i, count - i, undefined);
     }
     return s.safe_weights || hn::AllFalse(D(), vanishing);
   }
 
   static Progress all(const SurfacePieces& s, const SurfaceCall& call, const double* u, std::size_t count_u,
                       const double* v, std::size_t count_v) {
-    const SurfaceSinks out(s, call.out, count_u * count_v, false);
+    const SurfaceSinks out(call.out, count_u * count_v, false);
     Progress progress;
     HWY_ALIGN double x[kTile];
     HWY_ALIGN double y[kTile];
@@ -90,7 +93,7 @@ struct GridKernel {
             const std::size_t length = run_length(span_v, j, columns), at = (row0 + i) * count_v + column0 + j;
             row_curves(s, s.coefficients(span_u[i], span_v[j]), x[i], buffer);
             if (!run(s, span_u[i], span_v[j], buffer, v + column0 + j, length, at, out, progress.undefined_normals))
-              return {at, Stop::vanishing_weight, progress.undefined_normals};
+              return {row0 * count_v, Stop::vanishing_weight, 0};  // an earlier item may lie in a later tile of columns
             j += length;
           }
       }

@@ -35,7 +35,7 @@ struct KernelTable {
   // Points with the bound of each (call.bound), or enclosures (call.lower, call.upper).
   Progress (*bounded)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count);
   Progress (*curve)(const CurvePieces&, const CurveOutput&, bool left, const double* t, std::size_t count);
-  // Point and the bound of its distance from the exact one before the last rounding; see compensated.h.
+  // Point and the bound of its distance from the exact one before the last rounding; see compensated_kernels.h.
   Progress (*compensated)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count,
                           unsigned char* undecided);
 };

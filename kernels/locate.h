@@ -40,6 +40,27 @@ PATCHPROOF_INLINE auto vanishes(V weight, std::size_t from, std::size_t count) {
   return hn::AndNot(hn::Ge(hn::Abs(weight), hn::Set(D(), kSmallestWeight)), valid);
 }
 
+// The quotient is no number in double, of the lanes as above (the denominator was not zero, but next to nothing).
+template <class Jet>
+PATCHPROOF_INLINE auto overflowed(const Jet& jet, int group, std::size_t from, std::size_t count) {
+  V zero_or_nan = hn::Zero(D());  // 0 · x is 0 for numbers only
+  for (const auto& vector : jet.d)
+    for (int k = 0; k < 3; ++k) zero_or_nan = hn::MulAdd(vector.c[group][k].v, hn::Zero(D()), zero_or_nan);
+  const std::size_t left = from < count ? count - from : 0;
+  return hn::AndNot(hn::Eq(zero_or_nan, hn::Zero(D())),
+                    hn::FirstN(D(), left < static_cast<std::size_t>(kLanes) ? left : kLanes));
+}
+template <class Jet>
+PATCHPROOF_INLINE bool overflowed(const Jet& jet) {
+  double zero_or_nan = 0;
+  for (const Quad& vector : jet.d) {
+    double numbers[4];
+    vector.store(numbers);
+    for (int k = 0; k < 3; ++k) zero_or_nan += numbers[k] * 0;
+  }
+  return zero_or_nan != 0;
+}
+
 // Steps: a constant, or −1: axis.steps.
 template <int Steps>
 void locate_with(const Axis& axis, bool from_left, const double* t, std::size_t count, std::int64_t* span, double* x) {

@@ -4,7 +4,7 @@
 //
 //   piece (a, b), x = (u − u.centre[a]) · u.scale[a], y likewise:  A(u,v) = Σ_ij c_ij x^i y^j,  |x|, |y| < 1
 //
-// with c_ij = (x, y, z, w) homogeneous; of a surface without weights the fourth number is that of its bound (bounded.h).
+// with c_ij = (x, y, z, w) homogeneous; of a surface without weights the fourth number is that of its bound (bounded_kernels.h).
 // Scales are powers of two, so that factors of derivatives are exact, and centres are doubles: the only rounding of x is
 // that of u − centre.
 #pragma once
@@ -40,6 +40,8 @@ struct PieceBounds {
   double error[6]{};
   // Of the homogeneous point (rational surfaces only).
   double numerator_error = 0, weight_error = 0;
+  // Powers of two that bring S_u and S_v near 1.
+  double normal_scale_u = 1, normal_scale_v = 1;
   // Of the compensated kernels' homogeneous coordinates x, y, z, w, before the last rounding.
   double compensated[4]{};
 };
@@ -64,13 +66,12 @@ class Coefficients {
 struct SurfacePieces {
   Axis u, v;
   bool rational = false;
-  // Weights are positive and of comparable size: the denominator needs no watching.
+  // In every piece the weights exceed the denominator's rounding errors: it needs no watching.
   bool safe_weights = true;
   int row = 0;             // numbers of one pair of rows of coefficients: 8 · (u.degree + 1)
   std::size_t piece = 0;   // numbers of one piece: row · ceil((v.degree + 1) / 2)
   Coefficients high, low;  // c rounded, and what rounding took away, rounded
   std::vector<PieceBounds> bounds;
-  double normal_scale_u = 1, normal_scale_v = 1;  // powers of two that bring S_u and S_v near 1
   // The numbers given: the exact truth.
   std::vector<double> knots_u, knots_v, points, weights;
 

@@ -17,8 +17,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Powers of two within 2^±kLargestExponent of spans keep all factors of second derivatives finite.
 constexpr int kLargestExponent = 500;
-// A weight below this part of the largest one makes the denominator worth watching.
-constexpr double kComparableWeights = 0x1p-500;
+// The denominator needs no watching where the smallest weight of a piece is that many times its rounding errors.
+constexpr double kSafeMargin = 4;
 
 Error bad_number(std::string where, std::string message, double value) {
   return Error{ErrorCode::bad_number, std::move(where), std::move(message), number_text(value)};
@@ -51,9 +51,10 @@ std::int64_t bucket_of(const Axis& a, double t) { return static_cast<std::int64_
 
 void make_buckets(Axis& a) {
   constexpr int kMostSteps = 2;
-  for (int buckets = 4; buckets <= 1 << 14; buckets *= 2) {
-    if (buckets < 2 * a.count) continue;
-    a.per_unit = buckets / (a.end - a.begin);
+  constexpr int kUsualMost = 1 << 14;
+  for (std::int64_t buckets = 4;; buckets *= 2) {
+    if (buckets < 2 * std::int64_t{a.count}) continue;
+    a.per_unit = static_cast<double>(buckets) / (a.end - a.begin);
     a.first.assign(static_cast<std::size_t>(buckets) + 2, 0);
     // first[b]: the last span that begins in an earlier bucket. Those that begin in bucket b are the steps.
     a.steps = 0;
@@ -63,7 +64,7 @@ void make_buckets(Axis& a) {
       while (s + 1 < a.count && bucket_of(a, a.right[s + 1]) == static_cast<std::int64_t>(b)) ++s;
       a.steps = std::max(a.steps, static_cast<int>(s - a.first[b]));
     }
-    if (a.steps <= kMostSteps) return;
+    if (a.steps <= kMostSteps || buckets >= kUsualMost) return;
   }
 }
 
@@ -108,7 +109,6 @@ std::vector<std::vector<DoubleDouble>> matrices(const KnotVector<double>& knots,
 struct Net {
   std::vector<DoubleDouble> numbers;  // x y z w of each
   std::vector<double> weight;
-  bool safe = true;
 };
 
 Result<Net> make_net(std::span<const double> points, std::span<const double> weights) {
@@ -120,17 +120,18 @@ Result<Net> make_net(std::span<const double> points, std::span<const double> wei
   int exponent = 0;
   std::frexp(largest, &exponent);
   for (std::size_t i = 0; i < count; ++i) {
-    // Not exact only where the smallest weights are 2^-1000 of the largest: then the denominator is not safe anyway.
     const double w = weights.empty() ? 1 : std::ldexp(weights[i], -exponent);
+    // Scaled down, the smallest weights may lose digits to underflow.
+    const bool exact = weights.empty() || std::ldexp(w, exponent) == weights[i];
+    const DoubleDouble factor(w, 0, exact ? 0 : std::numeric_limits<double>::denorm_min());
     for (int k = 0; k < 3; ++k) {
       net.numbers.push_back(weights.empty() ? DoubleDouble(points[3 * i + k])
-                                            : DoubleDouble::product(points[3 * i + k], w));
+                                            : DoubleDouble(points[3 * i + k]) * factor);
       if (!std::isfinite(net.numbers.back().error()))
         return bad_number("points[" + std::to_string(3 * i + k) + "]", "the number overflows", points[3 * i + k]);
     }
-    net.numbers.push_back(DoubleDouble(w));
-    net.weight.push_back(w);
-    net.safe = net.safe && w >= kComparableWeights;
+    net.numbers.push_back(factor);
+    net.weight.push_back(exact ? w : 0);  // a lower bound is wanted
   }
   return net;
 }
@@ -147,6 +148,13 @@ PointMagnitude magnitude_of(const double* high, const double* error, double smal
 
 // |x| ≤ reach, rounded once.
 Magnitude local_parameter(double reach) { return Magnitude(reach, kUnitRoundoff * reach); }
+
+// A power of two that brings a number of this size near 1.
+double near_one(double size) {
+  int exponent = 0;
+  if (size > 0 && std::isfinite(size)) std::frexp(size, &exponent);
+  return std::ldexp(1.0, -exponent);
+}
 
 template <class Jet>
 void keep_bounds(const Jet& jet, int count, PieceBounds& out) {
@@ -184,7 +192,6 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
   s.u = std::move(*axis_u);
   s.v = std::move(*axis_v);
   s.rational = !data.weights.empty();
-  s.safe_weights = net->safe;
   const int p = s.u.degree, q = s.v.degree, order_u = p + 1, order_v = q + 1, numbers = s.rational ? 4 : 3;
   s.row = 8 * order_u;
   s.piece = static_cast<std::size_t>(s.row) * ((q + 2) / 2);
@@ -194,7 +201,6 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
   s.bounds.resize(pieces);
   const auto in_u = matrices(*knots_u, s.u), in_v = matrices(*knots_v, s.v);
 
-  double largest_du = 0, largest_dv = 0;
   std::vector<DoubleDouble> rows(static_cast<std::size_t>(order_u) * nv * 4);  // Σ_a M_ia P_a,b
   std::vector<double> errors(s.piece);
   for (int a = 0; a < s.u.count; ++a) {
@@ -230,8 +236,8 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
             errors[at + k] = std::fabs(sum.low()) + sum.error();
             largest = std::max(largest, std::fabs(sum.high()));
             largest_error = std::max(largest_error, sum.error());
-            sum_of_moduli[k] += std::fabs(sum.high()) * size;
-            sum_of_errors[k] += sum.error() * size;
+            sum_of_moduli[k] += std::fabs(sum.high()) * size + (sum.high() != 0 ? kUnderflow : 0);
+            sum_of_errors[k] += sum.error() * size + (sum.error() != 0 ? kUnderflow : 0);
           }
           // The fourth number of a piece without weights: the term of its pointwise bound.
           if (!s.rational) high[at + 3] = (gamma(3 * (i + j) + 3) * largest + largest_error) * kBoundSlack + kUnderflow;
@@ -262,17 +268,11 @@ Result<SurfacePieces> prepare(const SurfaceData& data) {
         const double bound = affine.d[m].coordinate.size;
         return std::isfinite(bound) ? bound : jet.d[m].coordinate.size;
       };
-      largest_du = std::max(largest_du, size(1));
-      largest_dv = std::max(largest_dv, size(2));
+      bounds.normal_scale_u = near_one(size(1));
+      bounds.normal_scale_v = near_one(size(2));
+      s.safe_weights = s.safe_weights && (!s.rational || smallest_weight > kSafeMargin * bounds.weight_error);
     }
   }
-  const auto near_one = [](double size) {
-    int exponent = 0;
-    if (size > 0) std::frexp(size, &exponent);
-    return std::ldexp(1.0, -exponent);
-  };
-  s.normal_scale_u = near_one(largest_du);
-  s.normal_scale_v = near_one(largest_dv);
   s.knots_u.assign(data.knots_u.begin(), data.knots_u.end());
   s.knots_v.assign(data.knots_v.begin(), data.knots_v.end());
   s.points.assign(data.points.begin(), data.points.end());
@@ -297,7 +297,6 @@ Result<CurvePieces> prepare(const CurveData& data) {
   CurvePieces c;
   c.t = std::move(*axis);
   c.rational = !data.weights.empty();
-  c.safe_weights = net->safe;
   const int p = c.t.degree, order = p + 1;
   c.high = Coefficients(c.piece() * c.t.count);
   c.bounds.resize(c.t.count);
@@ -325,6 +324,7 @@ Result<CurvePieces> prepare(const CurveData& data) {
     bounds.numerator_error = jet.d[0].coordinate.error;
     bounds.weight_error = jet.d[0].weight.error;
     keep_bounds(c.rational ? quotient<2>(jet) : jet, 3, bounds);
+    c.safe_weights = c.safe_weights && (!c.rational || smallest_weight > kSafeMargin * bounds.weight_error);
   }
   c.knots.assign(data.knots.begin(), data.knots.end());
   c.points.assign(data.points.begin(), data.points.end());

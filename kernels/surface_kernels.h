@@ -11,10 +11,9 @@ namespace patchproof::kernels::HWY_NAMESPACE {
 struct SurfaceSinks {
   Sink d[6];  // S, S_u, S_v, S_uu, S_uv, S_vv
   Sink normal;
-  NormalScale normal_scale;
 
-  SurfaceSinks(const SurfacePieces& s, const SurfaceOutput& out, std::size_t count, bool whole_vectors)
-      : normal(out.normal, count, whole_vectors), normal_scale{Lanes(s.normal_scale_u), Lanes(s.normal_scale_v)} {
+  SurfaceSinks(const SurfaceOutput& out, std::size_t count, bool whole_vectors)
+      : normal(out.normal, count, whole_vectors) {
     const VectorArray arrays[6] = {out.point, out.du, out.dv, out.duu, out.duv, out.dvv};
     for (int m = 0; m < 6; ++m) d[m] = Sink(arrays[m], count, whole_vectors);
   }
@@ -22,8 +21,8 @@ struct SurfaceSinks {
 
 // kLanes results (or the first `count`) of one group to their places.
 template <int Order, class Jet>
-PATCHPROOF_INLINE void put_lanes(const SurfaceSinks& out, const Jet& jet, int group, std::size_t at, std::size_t count,
-                                 std::size_t& undefined) {
+PATCHPROOF_INLINE void put_lanes(const SurfaceSinks& out, const NormalScale& normal_scale, const Jet& jet, int group,
+                                 std::size_t at, std::size_t count, std::size_t& undefined) {
   const bool whole = count >= static_cast<std::size_t>(kLanes);
 #pragma GCC unroll 6
   for (int m = 0; m < Jet::kCount; ++m) {
@@ -37,7 +36,7 @@ PATCHPROOF_INLINE void put_lanes(const SurfaceSinks& out, const Jet& jet, int gr
     if (!out.normal.wanted()) return;
     const auto &a = jet.d[1].c[group], &b = jet.d[2].c[group];
     Lanes n[3];
-    unit_normal({a[0], a[1], a[2]}, {b[0], b[1], b[2]}, out.normal_scale, n);
+    unit_normal({a[0], a[1], a[2]}, {b[0], b[1], b[2]}, normal_scale, n);
     const int valid = whole ? kLanes : static_cast<int>(count);
     undefined += undefined_among(n, valid);
     if (whole)
@@ -108,6 +107,8 @@ struct SurfaceKernel {
     const V centre_u = hn::Set(D(), s.u.centre[span_u]), scale_u = hn::Set(D(), s.u.scale[span_u]);
     const V centre_v = hn::Set(D(), s.v.centre[span_v]), scale_v = hn::Set(D(), s.v.scale[span_v]);
     const Group<kGroups> factor_u(s.u.scale[span_u]), factor_v(s.v.scale[span_v]);
+    const PieceBounds& bounds = s.bounds[static_cast<std::size_t>(span_u * s.v.count + span_v)];
+    const NormalScale normal_scale{Lanes(bounds.normal_scale_u), Lanes(bounds.normal_scale_v)};
     auto vanishing = hn::FirstN(D(), 0);
     constexpr std::size_t kStep = static_cast<std::size_t>(kLanes) * kGroups;
     for (std::size_t i = 0; i < count; i += kStep) {
@@ -141,11 +142,13 @@ struct SurfaceKernel {
         for (int b = 0; b < kGroups; ++b)
           vanishing = hn::Or(vanishing, vanishes(jet.d[0].c[b][3].v, i + b * kLanes, count));
         jet = quotient<Order>(jet);
+        if (!s.safe_weights)
+          for (int b = 0; b < kGroups; ++b) vanishing = hn::Or(vanishing, overflowed(jet, b, i + b * kLanes, count));
       }
 #pragma GCC unroll 4
       for (int b = 0; b < kGroups; ++b) {
         const std::size_t from = i + static_cast<std::size_t>(b) * kLanes;
-        if (from < count) put_lanes<Order>(out, jet, b, at + from, count - from, undefined);
+        if (from < count) put_lanes<Order>(out, normal_scale, jet, b, at + from, count - from, undefined);
       }
     }
     return s.safe_weights || hn::AllFalse(D(), vanishing);
@@ -196,14 +199,16 @@ struct SurfaceKernel {
           good = good && (numbers[3] >= kSmallestWeight || numbers[3] <= -kSmallestWeight);
         }
         jet = quotient<Order>(jet);
+        if (!s.safe_weights) good = good && !overflowed(jet);
       }
 #pragma GCC unroll 6
       for (int m = 0; m < SurfaceJet<Order, Quad>::kCount; ++m) out.d[m].put(at + i, jet.d[m]);
       if constexpr (Order >= 1)
         if (out.normal.wanted()) {
+          const PieceBounds& bounds = s.bounds[static_cast<std::size_t>(span_u[i] * s.v.count + span_v[i])];
           double a[4], b[4];
-          jet.d[1].store(a);
-          jet.d[2].store(b);
+          scale(jet.d[1], Scalar(bounds.normal_scale_u)).store(a);
+          scale(jet.d[2], Scalar(bounds.normal_scale_v)).store(b);
           for (int k = 0; k < 3; ++k) {
             du[k][i] = a[k];
             dv[k][i] = b[k];
@@ -224,7 +229,7 @@ struct SurfaceKernel {
         a[k] = hn::Load(D(), du[k] + i);
         b[k] = hn::Load(D(), dv[k] + i);
       }
-      unit_normal(a, b, out.normal_scale, n);
+      unit_normal(a, b, {Lanes(1.0), Lanes(1.0)}, n);  // scaled before
       undefined += undefined_among(n, valid);
       out.normal.put_some(at + i, n[0].v, n[1].v, n[2].v, valid);
     }
@@ -232,7 +237,8 @@ struct SurfaceKernel {
 
   static Progress all(const SurfacePieces& s, const SurfaceCall& call, const double* u, const double* v,
                       std::size_t count) {
-    const SurfaceSinks out(s, call.out, count, s.u.count == 1 && s.v.count == 1);
+    // Points alone are written fastest through the cache, more numbers past it.
+    const SurfaceSinks out(call.out, count, Order > 0 && s.u.count == 1 && s.v.count == 1);
     std::size_t undefined = 0;
     Progress progress = for_tiles(
         s, call, u, v, count,
@@ -241,6 +247,7 @@ struct SurfaceKernel {
         [&](const std::int64_t* span_u, const std::int64_t* span_v, const double* x, const double* y, std::size_t n,
             std::size_t at) { return scattered(s, span_u, span_v, x, y, n, at, out, undefined); });
     progress.undefined_normals = undefined;
+    hwy::FlushStream();  // streamed results are visible to whoever learns that the call has ended
     return progress;
   }
 };

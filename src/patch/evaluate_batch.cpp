@@ -87,9 +87,9 @@ bool exact_point(const kernels::SurfacePieces& s, const kernels::SurfaceCall& ca
                                         only_span(s.knots_v, s.v, v, call.left_v), std::move(net));
   const Vec<Rational, 4> a = evaluate(local, from_double(u), from_double(v));
   if (a[3] == Rational(0)) return false;
-  *out.x = nearest_double(a[0] / a[3]);
-  *out.y = nearest_double(a[1] / a[3]);
-  *out.z = nearest_double(a[2] / a[3]);
+  *out.x = nearest_double(a[0] / a[3]) + 0.0;  // no −0
+  *out.y = nearest_double(a[1] / a[3]) + 0.0;
+  *out.z = nearest_double(a[2] / a[3]) + 0.0;
   return true;
 }
 
@@ -99,6 +99,7 @@ Result<BatchSummary> compensated(const kernels::SurfacePieces& pieces, std::span
                                  std::span<const double> v, const VectorArray& point,
                                  const SurfaceBatchOptions& options, bool correctly_rounded) {
   PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
+  PATCHPROOF_REQUIRES(point.wanted(), "compensated evaluation: a place for the points");
   const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
   const auto part = [&](std::size_t begin, std::size_t count) {
     constexpr std::size_t kPart = 4096;

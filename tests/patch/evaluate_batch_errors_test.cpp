@@ -93,6 +93,110 @@ TEST(EvaluateBatch, Law4ZerosOfTheDenominatorAreNamed) {
   }
 }
 
+TEST(EvaluateBatch, Law4TheFirstZeroOfTheDenominatorIsNamedAlsoInLaterTilesOfAGrid) {
+  // w = (1 − 2u)(1 − 2v): of the grid {1/4, 1/2} × 300 columns with v = 1/2 in column 280, item 280 comes first.
+  const std::vector<double> line = {0, 0, 1, 1}, weights = {1, -1, -1, 1},
+                            points = {0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1, 1};
+  const BatchSurface surface = *BatchSurface::make({1, 1, line, line, points, weights});
+  std::vector<double> u = {0.25, 0.5}, v(300, 0.125);
+  v[280] = 0.5;
+  Results g(600);
+  const auto grid = surface.evaluate_grid(u, v, g.out);
+  ASSERT_FALSE(grid);
+  EXPECT_EQ(grid.error().where, "parameter 280");
+  // A zero before a parameter outside the domain, in one tile.
+  std::vector<double> us(200, 0.25), vs(200, 0.125);
+  us[100] = 0.5;
+  us[101] = std::numeric_limits<double>::quiet_NaN();
+  Results r(200);
+  const auto scattered = surface.evaluate(us, vs, r.out);
+  ASSERT_FALSE(scattered);
+  EXPECT_EQ(scattered.error().code, ErrorCode::vanishing_weight);
+  EXPECT_EQ(scattered.error().where, "parameter 100");
+}
+
+TEST(EvaluateBatch, WeightsThatVanishBesideOthersGiveAnErrorOrANumberButNoNaN) {
+  // u = 1: all weights there are ε. The exact x is 4.
+  const std::vector<double> line = {0, 0, 1, 1}, points = {1, 0, 0, 1, 1, 0, 4, 0, 0, 4, 1, 0}, u = {1, 0.5, 1},
+                            v = {0.5, 0.5, 0};
+  for (const double e : {0x1p-30, 0x1p-52, 0x1p-53, 0x1p-54, 0x1p-60, 1e-30, 1e-300, 0x1p-1074}) {
+    const std::vector<double> weights = {1, 1, e, e};
+    const SurfaceData data{1, 1, line, line, points, weights};
+    const BatchSurface surface = *BatchSurface::make(data);
+    const auto patch = validation::exact_patch(data);
+    for (const InstructionSet set : available_instruction_sets()) {
+      SurfaceBatchOptions options;
+      options.instructions = set;
+      Results r(3), lower(3, 1), upper(3, 1), bounded(3, 1), rounded(3, 1);
+      std::vector<double> bound(3);
+      const auto plain = surface.evaluate(u, v, r.out, options);
+      const bool bounds = surface.evaluate_bounded(u, v, bounded.out.point, bound.data(), options).has_value();
+      const bool intervals = surface.evaluate_interval(u, v, lower.out.point, upper.out.point, options).has_value();
+      ASSERT_TRUE(surface.evaluate_correctly_rounded(u, v, rounded.out.point, options)) << e;
+      for (int i = 0; i < 3; ++i) {
+        const auto exact = validation::exact_values(patch, u[i], v[i], Side::right, 0).vectors[0];
+        for (int k = 0; k < 3; ++k) {
+          EXPECT_EQ(rounded.numbers[0][3 * i + k], nearest_double(exact[k])) << e;
+          if (plain) {
+            EXPECT_TRUE(std::isfinite(r.numbers[0][3 * i + k])) << e << " " << to_string(set);
+          }
+          if (bounds && std::isfinite(bound[i])) {
+            EXPECT_LE(abs(from_double(bounded.numbers[0][3 * i + k]) - exact[k]), from_double(bound[i])) << e;
+          }
+          if (intervals) {
+            const double low = lower.numbers[0][3 * i + k], high = upper.numbers[0][3 * i + k];
+            EXPECT_FALSE(std::isnan(low) || std::isnan(high)) << e;
+            EXPECT_TRUE(low == -std::numeric_limits<double>::infinity() || from_double(low) <= exact[k]) << e;
+            EXPECT_TRUE(high == std::numeric_limits<double>::infinity() || from_double(high) >= exact[k]) << e;
+          }
+        }
+      }
+      EXPECT_TRUE(e < 0x1p-50 || plain) << e;
+    }
+  }
+}
+
+TEST(EvaluateBatch, WeightsLostToUnderflowAreNotForgotten) {
+  const std::vector<double> line = {0, 0, 1, 1}, half = {0.5};
+  struct Case {
+    std::vector<double> points, weights;
+  };
+  const Case cases[] = {{{0, 0, 0, 0, 0, 0, 0, 0, 0, 0x1p1023, 0, 0}, {1, 1, 1, 0x1p-1074}},
+                        {{1, 0, 0, 1, 0, 0, 1, 0, 0, 0x1p1023, 0, 0}, {1, 1, 1, 3 * 0x1p-1074}},
+                        {{1, 0, 0, 1, 0, 0, 1, 0, 0, 0x1p1023, 0, 0}, {0x1p1023, 1, 1, 0x1p-1000}}};
+  for (const Case& c : cases) {
+    const SurfaceData data{1, 1, line, line, c.points, c.weights};
+    const BatchSurface surface = *BatchSurface::make(data);
+    const auto exact = validation::exact_values(validation::exact_patch(data), 0.5, 0.5, Side::right, 0).vectors[0];
+    for (const InstructionSet set : available_instruction_sets()) {
+      SurfaceBatchOptions options;
+      options.instructions = set;
+      Results rounded(1, 1), bounded(1, 1);
+      double bound = -1;
+      ASSERT_TRUE(surface.evaluate_correctly_rounded(half, half, rounded.out.point, options));
+      EXPECT_EQ(rounded.numbers[0][0], nearest_double(exact[0]));
+      ASSERT_TRUE(surface.evaluate_bounded(half, half, bounded.out.point, &bound, options));
+      EXPECT_LE(abs(from_double(bounded.numbers[0][0]) - exact[0]), from_double(bound));
+    }
+  }
+}
+
+TEST(EvaluateBatch, EachPieceHasItsOwnScaleOfNormals) {
+  // A large piece, then one of size 1e-160: its normal exists all the same.
+  const std::vector<double> knots = {0, 0, 1, 1, 2, 2}, line = {0, 0, 1, 1};
+  std::vector<double> points;
+  for (const double x : {0.0, 1.0, 0.0, 1e-160})
+    for (const double y : {0.0, x == 1e-160 || points.size() >= 12 ? 1e-160 : 1.0})
+      points.insert(points.end(), {x, y, 0});
+  const BatchSurface surface = *BatchSurface::make({1, 1, knots, line, points, {}});
+  const std::vector<double> u = {0.5, 1.5, 1.25}, v = {0.5, 0.5, 0.25};
+  Results r(3);
+  const auto summary = surface.evaluate(u, v, r.out);
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->undefined_normals, 0u);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(r.numbers[6][3 * i + 2], 1, 1e-15);
+}
+
 TEST(EvaluateBatch, DegreesFarBeyondTheUsualWorkInEveryCall) {
   const int p = 2, q = 40;
   std::vector<double> ku(p + 1, 0.0), kv(q + 1, 0.0), points, xs;

@@ -141,6 +141,21 @@ TEST(CurveBatch, Laws3And4EndsSidesAndParametersOutside) {
   }
 }
 
+TEST(CurveBatch, ManySpansAreAllFound) {
+  for (const int spans : {8191, 8192, 8193, 100000}) {
+    std::vector<double> knots = {0}, points;
+    for (int i = 0; i <= spans; ++i) knots.push_back(i);
+    knots.push_back(spans);
+    for (int i = 0; i <= spans; ++i) points.insert(points.end(), {i * 2.0, i % 3 * 1.0, 0});
+    const BatchCurve curve = *BatchCurve::make({1, knots, points, {}});
+    std::vector<double> t = {0, 0.5, spans - 0.5, double(spans)};
+    for (int i = 1; i < spans; i += 997) t.push_back(i + 0.25);
+    Results r(t.size(), 1);
+    ASSERT_TRUE(curve.evaluate(t, r.out, {}));
+    for (std::size_t i = 0; i < t.size(); ++i) EXPECT_EQ(r.numbers[0][3 * i], 2 * t[i]);
+  }
+}
+
 TEST(CurveBatch, ManyCloseKnotsAreFoundInTheirOwnSpans) {
   // 300 knots within 1e-6 of each other beside a span of length 1: buckets alone cannot separate them.
   std::vector<double> knots(4, 0.0), points;

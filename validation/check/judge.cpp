@@ -43,7 +43,7 @@ void Judge::number(double computed, double bound, const std::function<std::strin
   const Deviation d = deviation(computed, exact_);
   if (std::isinf(bound)) {  // nothing is promised but a number or an error
     ++tally_.without_bound;
-    return record(d, true, 0, place, "");
+    return record(d, d.is_finite, 0, place, fmt::format("computed {}, not even a number", computed));
   }
   const bool holds = d.is_finite && bound >= 0 && d.modulus <= from_double(bound);
   const double ratio = d.modulus == Rational(0) ? 0 : bound > 0 ? nearest_double(d.modulus / from_double(bound)) : 1;

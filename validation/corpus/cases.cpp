@@ -15,7 +15,7 @@ namespace {
 enum class Degrees { one_to_nine, one_to_five, each_in_turn, fifteen, two };
 enum class Knots { bezier, uneven, nearly_equal, repeated, torn, unclamped, wide_and_far };
 enum class Points { lattice, huge, tiny, far, alternating, mixed_sizes };
-enum class Weights { perhaps, near_zero, some_zero, mixed_signs, touching };
+enum class Weights { perhaps, near_zero, vanishing, some_zero, mixed_signs, touching };
 
 struct Recipe {
   Group group;
@@ -76,6 +76,12 @@ const std::vector<Recipe>& recipes() {
        K::uneven,
        P::lattice,
        W::near_zero},
+      {{"vanishing_weights", "weights of 1 beside 2^-53 to 2^-1074"},
+       6,
+       D::one_to_five,
+       K::uneven,
+       P::lattice,
+       W::vanishing},
       {{"zero_weights", "weights of 0"}, 4, D::one_to_five, K::uneven, P::lattice, W::some_zero},
       {{"mixed_sign_weights", "negative weights, the denominator without zeros"},
        6,
@@ -159,6 +165,7 @@ std::vector<double> make_points(Points style, int count_u, int count_v, int k, R
 
 std::vector<double> draw_weights(Weights style, int count_u, int count_v, int k, Random& random) {
   static const std::array<double, 4> small{1e-3, 1e-8, 1e-16, 1e-300}, distances{1e-2, 1e-4, 1e-6, 1e-8};
+  static const std::array<int, 6> vanishing{-53, -60, -300, -900, -1022, -1073};
   std::vector<double> out;
   for (int i = 0; i < count_u; ++i)
     for (int j = 0; j < count_v; ++j) {
@@ -168,6 +175,7 @@ std::vector<double> draw_weights(Weights style, int count_u, int count_v, int k,
       if (style == Weights::some_zero && !at_corner && random.coin()) w = 0;
       if (style == Weights::mixed_signs && !at_corner && random.integer(0, 2) == 0) w *= -random.between(0.01, 0.7);
       // (1 − u)² − 2(1 − d)u(1 − u) + u² is d/2 at 1/2.
+      if (style == Weights::vanishing && random.coin()) w = std::ldexp(w, vanishing[k % vanishing.size()]);
       if (style == Weights::touching) w = i == 1 ? distances[k % distances.size()] - 1 : 1;
       out.push_back(w);
     }
@@ -180,10 +188,16 @@ std::vector<double> make_weights(Weights style, const std::vector<double>& knots
   const int count_u = static_cast<int>(knots_u.size()) - p - 1, count_v = static_cast<int>(knots_v.size()) - q - 1;
   if (style == Weights::perhaps && k % 2 == 0) return {};
   const std::vector<double> any(3 * static_cast<std::size_t>(count_u) * count_v);
-  for (;;) {
+  for (int attempt = 0;; ++attempt) {
     std::vector<double> weights = draw_weights(style, count_u, count_v, k, random);
+    // Each attempt is milder than the one before, so that one of the first succeeds.
+    for (double& w : weights) {
+      if (style == Weights::mixed_signs && w < 0) w = std::ldexp(w, -attempt);
+      if (style == Weights::some_zero && w == 0 && attempt > 0 && random.integer(0, attempt) > 0) w = 1;
+    }
+    if (std::all_of(weights.begin(), weights.end(), [](double w) { return w > 0; })) return weights;  // a mean of them
     const auto patch = exact_patch({p, q, knots_u, knots_v, any, weights});
-    const DenominatorSign sign = certify_denominator(patch, {10, 100'000}).sign;
+    const DenominatorSign sign = certify_denominator(patch, {6, 24}).sign;
     if (sign == DenominatorSign::positive) return weights;
   }
 }

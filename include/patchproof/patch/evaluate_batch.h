@@ -7,21 +7,22 @@
 // Bézier patches are B-spline patches with Bézier knots. A batch surface is prepared once: each polynomial piece becomes a
 // power series about doubles near the middle of its spans, computed from the numbers given in doubled precision and
 // rounded once. After that it never changes: any number of threads may use one without locks, and no call allocates (but
-// for an error's text and for threads > 1).
+// for an error's text, threads ≠ 1, and points that only exact arithmetic can round).
 //
 // REQUIRES  rounding to nearest; outputs do not overlap the parameters; any alignment, any count, 0 included.
 // ENSURES   (1) |computed − exact| ≤ error_bound() in each coordinate, exact: the formula's value at the given doubles;
-//           for points without weights that is at most 3(p + q + 1) · 2^-53 · 2^(p+q) · max |P| (1 + 2^-30);
+//           for points without weights that is at most 3(p + q + 1) · 2^-53 · 2^(p+q) · max |P| (1 + 2^-30) + 2^-1000;
 //           (2) the same (u,v) gives the same bits: whatever its place, the count, the layout, scattered or grid, the
 //           number of threads, whatever else is asked for, and on every instruction set with fused multiply-add;
 //           (3) both ends of the domain have values; at a knot the side chooses the limit;  (4) a parameter outside the
-//           domain, or NaN, or where the denominator is zero (or so small, below 2^-900 of the largest weight, that double
-//           knows nothing of it) ends the call with an error that names its index. Of the output, whole tiles before that
-//           index may be written, nothing after the index's tile;
+//           domain, or NaN, or where the computed denominator is zero (it may be so where the exact one is smaller than its
+//           rounding errors) ends the call with an error that names its index. Of the output, anything before that
+//           index may be written, and nothing beyond its tile of 256 (with threads ≠ 1: anything);
 //           (5) |point − exact| ≤ bound[i] in each coordinate (evaluate_bounded);  (6) lower[i] ≤ exact ≤ upper[i]
 //           (evaluate_interval);  (7) evaluate_correctly_rounded: the double nearest to the exact coordinate, the even one
 //           of two;  (8) evaluate_compensated: as if in twice the precision, then rounded: for degrees up to 8 the error
-//           is at most (1/2 + 2^-20) ulp where the moduli of the terms sum up to at most 2^20 times the value.
+//           is at most (1/2 + 2^-20) ulp for values above 2^-900 where the moduli of the terms sum up to at most 2^20 times
+//           the value.
 // ERRORS    make: bad_degree, wrong_count, bad_number (NaN, infinite, overflowing), decreasing_knots, empty_domain.
 //           evaluate…: outside_domain, vanishing_weight.
 // COST      validation/bench measures it. make: a few microseconds for each polynomial piece of degree (3, 3).
@@ -71,7 +72,7 @@ class BatchSurface {
   bool is_rational() const;
 
   // Of evaluate and evaluate_grid, everywhere: the largest of the pieces' bounds (kernels/error_bounds.h). +infinity where
-  // a weight is not positive or below 2^-500 of the largest: evaluate_bounded knows more there.
+  // the weights do not exceed the denominator's rounding errors: evaluate_bounded knows more there.
   double error_bound(SurfaceVector vector) const;
 
   // Item i at (u[i], v[i]), in any order. REQUIRES as many u as v, here and below.

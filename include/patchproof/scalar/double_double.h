@@ -65,13 +65,14 @@ class DoubleDouble {
     return renormalised(v, s_error + t_error, a.error_ + b.error_, 0x1p-104);
   }
   friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
+    if (a.is_exact_zero() || b.is_exact_zero()) return DoubleDouble(a.high_ * b.high_);
     const double p = a.high_ * b.high_, p_error = std::fma(a.high_, b.high_, -p);
     const double cross = std::fma(a.high_, b.low_, a.low_ * b.high_);
     double propagated = 0;
     if (a.error_ != 0 || b.error_ != 0)
       propagated = std::fabs(a.high_) * b.error_ * kUp + a.error_ * (std::fabs(b.high_) * kUp + b.error_);
-    // Below 2^-900 the error of a product may itself be lost: four products, each within 2^-1074.
-    if (std::fabs(p) < 0x1p-900 && a.high_ != 0 && b.high_ != 0) propagated += 0x1p-1070;
+    // Below 2^-900 the errors of products may themselves be lost: seven products, each within 2^-1074.
+    if (std::fabs(p) < 0x1p-900) propagated += 0x1p-1070;
     return renormalised(p, p_error + cross, propagated, 0x1p-103);
   }
   // The quotient q of the high parts, improved by the residue a − q·b: what is left of the residue bounds the error.
@@ -91,6 +92,7 @@ class DoubleDouble {
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kUp = 1 + 0x1p-49;  // more than the roundings of the bounds themselves lose
+  bool is_exact_zero() const { return high_ == 0 && error_ == 0; }
   static DoubleDouble renormalised(double high, double low, double propagated, double unit) {
     double l;
     const double h = detail::fast_two_sum(high, low, l);

@@ -9,12 +9,12 @@
 //
 // REQUIRES  rounding to nearest; output arrays do not overlap the parameters; any alignment, any count, 0 included.
 // ENSURES   (1) |computed − exact| ≤ error_bound(derivative) in each coordinate, exact: the formula's value at the given
-//           doubles; for points without weights that is at most 3(p + 1) · 2^-53 · 2^p · max |P| (1 + 2^-30);  (2) the same parameter gives the same bits: whatever its place, the count, the layout, the
+//           doubles; for points without weights that is at most 3(p + 1) · 2^-53 · 2^p · max |P| (1 + 2^-30) + 2^-1000;  (2) the same parameter gives the same bits: whatever its place, the count, the layout, the
 //           number of threads, whether derivatives are asked for, and on every instruction set with fused multiply-add;
 //           (3) both ends of the domain have values; at a knot `side` chooses the limit;  (4) a parameter outside the
-//           domain, or NaN, or where the denominator is zero (or so small, below 2^-900 of the largest weight, that double
-//           knows nothing of it) ends the call with an error that names its index. Of the output, whole tiles before that
-//           index may be written, nothing after the index's tile.
+//           domain, or NaN, or where the computed denominator is zero (it may be so where the exact one is smaller than its
+//           rounding errors) ends the call with an error that names its index. Of the output, anything before that
+//           index may be written, and nothing beyond its tile of 256 (with threads ≠ 1: anything).
 // ERRORS    make: bad_degree, wrong_count, bad_number (NaN, infinite or overflowing), decreasing_knots, empty_domain.
 //           evaluate: outside_domain, vanishing_weight.
 // COST      see validation/bench; per value of degree p about 3(p + 1) fused operations on a vector of parameters.
@@ -76,7 +76,8 @@ struct CurvePieces;
 
 // What a call did.
 struct BatchSummary {
-  std::size_t undefined_normals = 0;  // normals asked for where the computed S_u × S_v is 0; they are written as 0 0 0
+  // Normals asked for where the computed S_u × S_v is 0, or below 2^-450 of its piece's size; they are written as 0 0 0.
+  std::size_t undefined_normals = 0;
 };
 
 class BatchCurve {
@@ -88,8 +89,8 @@ class BatchCurve {
   int degree() const;
   bool is_rational() const;
 
-  // Of C, C', C'' (derivative 0, 1, 2): the largest of the pieces' bounds (kernels/error_bounds.h). +infinity where a
-  // weight is not positive or below 2^-500 of the largest.
+  // Of C, C', C'' (derivative 0, 1, 2): the largest of the pieces' bounds (kernels/error_bounds.h). +infinity where the
+  // weights do not exceed the denominator's rounding errors.
   double error_bound(int derivative) const;
 
   // Item i at t[i]. Sorted parameters are fastest, any order is right.
