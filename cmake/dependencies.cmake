@@ -4,10 +4,10 @@ find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(fmt REQUIRED)
-find_path(PATCHPROOF_HWY_INCLUDE_DIR hwy/highway.h REQUIRED)  # SIMD; only headers
-mark_as_advanced(PATCHPROOF_HWY_INCLUDE_DIR)
 if(PROJECT_NAME STREQUAL "patchproof")
   find_package(CLI11 REQUIRED)  # the program only
+  find_path(PATCHPROOF_HWY_INCLUDE_DIR hwy/highway.h REQUIRED)  # SIMD; headers only, used by the kernels' own files
+  mark_as_advanced(PATCHPROOF_HWY_INCLUDE_DIR)
 endif()
 
 find_library(PATCHPROOF_MPFI_LIBRARY mpfi REQUIRED)

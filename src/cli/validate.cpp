@@ -55,7 +55,12 @@ long violations(const Tallies& tallies) {
 }
 
 std::string short_number(double x) {
-  return std::isinf(x) ? "not finite" : x == 0 ? "0" : x < 1e4 ? fmt::format("{:.3g}", x) : fmt::format("{:.0e}", x);
+  constexpr double kNoDigit = 1e16;  // ulp: not even the first one is right
+  return std::isinf(x)   ? "not finite"
+         : x >= kNoDigit ? "no digit"
+         : x == 0        ? "0"
+         : x < 1e4       ? fmt::format("{:.3g}", x)
+                         : fmt::format("{:.0e}", x);
 }
 
 std::string table(const Tallies& tallies, const Options& o) {
@@ -155,9 +160,12 @@ std::string junit_text(const Tallies& tallies) {
 int run(Options o) {
   if (!o.instructions.empty())
     std::erase_if(o.check.sets, [&](InstructionSet set) { return o.instructions != to_string(set); });
-  if (o.check.sets.empty())
+  if (o.check.sets.empty()) {
+    std::string names;
+    for (const InstructionSet set : available_instruction_sets()) names += std::string(" ") + to_string(set);
     return report_error(
-        {ErrorCode::usage, "--instructions", "this machine has no such instruction set", o.instructions});
+        {ErrorCode::usage, "--instructions", "this machine has no such instruction set, but" + names, o.instructions});
+  }
   if (o.json == "-" && o.junit == "-")
     return report_error({ErrorCode::usage, "--junit", "only one report can go to standard output", "-"});
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "patchproof: computing exact values, about half a minute\n");

@@ -9,8 +9,9 @@
 //
 // REQUIRES  rounding to nearest; output arrays do not overlap the parameters; any alignment, any count, 0 included.
 // ENSURES   (1) |computed − exact| ≤ error_bound(derivative) in each coordinate, exact: the formula's value at the given
-//           doubles; for points without weights that is at most 3(p + 1) · 2^-53 · 2^p · max |P| (1 + 2^-30) + 2^-1000;  (2) the same parameter gives the same bits: whatever its place, the count, the layout, the
-//           number of threads, whether derivatives are asked for, and on every instruction set with fused multiply-add;
+//           doubles; for points without weights that is at most 3(p + 1) · 2^-53 · 2^p · max |P| (1 + 2^-30) + 2^-1000;
+//           (2) the same parameter gives the same bits: whatever its place, the count, the layout, the number
+//           of threads, whether derivatives are asked for, and on every instruction set with fused multiply-add;
 //           (3) both ends of the domain have values; at a knot `side` chooses the limit;  (4) a parameter outside the
 //           domain, or NaN, or where the computed denominator is zero (it may be so where the exact one is smaller than its
 //           rounding errors) ends the call with an error that names its index. Of the output, anything before that

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program outside the project: reads two numbers, prints their exact sum, and evaluates the point of a line in two
-// scalars, from headers and the compiled library of the installed package alone.
+// scalars and by the kernels, from headers and the compiled library of the installed package alone.
 #include <cstdio>
 #include <vector>
 
 #include "patchproof/scalar/interval.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/spline/bernstein.h"
+#include "patchproof/spline/evaluate_batch.h"
 
 using namespace patchproof;
 
@@ -21,6 +22,13 @@ int main(int count, char** words) {
   const Result<Rational> a = parse_scalar<Rational>(words[1]), b = parse_scalar<Rational>(words[2]);
   if (!a || !b) return 2;
   std::printf("%s\n", to_text(Rational(*a + *b)).c_str());
+
+  const std::vector<double> knots = {0, 0, 1, 1}, points = {1, 2, 3, 3, 4, 7}, t = {0.5};
+  double point[3];
+  CurveOutput out;
+  out.point = VectorArray::interleaved(point);
+  const auto curve = BatchCurve::make({1, knots, points, {}});
+  if (!curve || !curve->evaluate(t, out) || point[0] != 2 || point[1] != 3 || point[2] != 5) return 1;
 
   const RoundingGuard guard;
   const Rational exact = middle<Rational>(*a, *b);
