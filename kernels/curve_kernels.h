@@ -106,8 +106,9 @@ struct CurveKernel {
       const std::size_t inside = count_inside(c.t, t + at, n);
       if (inside < n) return {at + inside, Stop::outside_domain, 0};
       bool good = true;
-      if (c.t.count == 1) {
-        good = run(c, 0, t + at, n, at, out);
+      const std::int64_t only = c.t.count == 1 ? 0 : common_span(c.t, left, t + at, n);
+      if (only >= 0) {
+        good = run(c, only, t + at, n, at, out);
       } else {
         locate(c.t, left, t + at, n, span, x);
         const bool runs = mostly_runs(span, n);

@@ -85,6 +85,35 @@ inline void locate(const Axis& axis, bool from_left, const double* t, std::size_
   }
 }
 
+// The span that holds all of the parameters, or −1: that of the smallest one, if it is that of the largest.
+inline std::int64_t common_span(const Axis& axis, bool from_left, const double* t, std::size_t count) {
+  double ends[2] = {t[0], t[0]};
+  std::size_t i = 0;
+  if (count >= static_cast<std::size_t>(kLanes)) {
+    V low = hn::LoadU(D(), t), high = low;
+    for (i = kLanes; i + kLanes <= count; i += kLanes) {
+      low = hn::Min(low, hn::LoadU(D(), t + i));
+      high = hn::Max(high, hn::LoadU(D(), t + i));
+    }
+    HWY_ALIGN double lows[kLanes];
+    HWY_ALIGN double highs[kLanes];
+    hn::Store(low, D(), lows);
+    hn::Store(high, D(), highs);
+    for (int k = 0; k < kLanes; ++k) {
+      if (lows[k] < ends[0]) ends[0] = lows[k];
+      if (highs[k] > ends[1]) ends[1] = highs[k];
+    }
+  }
+  for (; i < count; ++i) {
+    if (t[i] < ends[0]) ends[0] = t[i];
+    if (t[i] > ends[1]) ends[1] = t[i];
+  }
+  std::int64_t span[2];
+  double x[2];
+  locate(axis, from_left, ends, 2, span, x);
+  return span[0] == span[1] ? span[0] : -1;
+}
+
 // Do runs of one piece cover most of a tile?
 PATCHPROOF_INLINE bool mostly_runs(const std::int64_t* piece, std::size_t count) {
   std::int64_t equal = 0;
