@@ -92,6 +92,28 @@ class Sink {
   // Only the first `count` of them.
   HWY_NOINLINE void put_some(std::size_t at, V x, V y, V z, int count) const {
     if (kind_ == Kind::none) return;
+#if HWY_TARGET == HWY_AVX3
+    // Masked stores write nothing beyond.
+    const auto put_first = [](V v, std::size_t n, double* to) {
+      if (n > 0) hn::BlendedStore(v, hn::FirstN(D(), n < kLanes ? n : kLanes), D(), to);
+    };
+    const std::size_t n = static_cast<std::size_t>(count);
+    if (kind_ == Kind::separate) {
+      put_first(x, n, a_.x + at);
+      put_first(y, n, a_.y + at);
+      put_first(z, n, a_.z + at);
+      return;
+    }
+    if (kind_ == Kind::interleaved) {
+      V first, second, third;
+      interleave(x, y, z, first, second, third);
+      double* to = a_.x + 3 * at;
+      put_first(first, 3 * n, to);
+      put_first(second, 3 * n > kLanes ? 3 * n - kLanes : 0, to + kLanes);
+      put_first(third, 3 * n > 2 * kLanes ? 3 * n - 2 * kLanes : 0, to + 2 * kLanes);
+      return;
+    }
+#endif
     HWY_ALIGN double numbers[3][kLanes];
     hn::Store(x, D(), numbers[0]);
     hn::Store(y, D(), numbers[1]);
