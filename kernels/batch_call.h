@@ -2,7 +2,6 @@
 // What all batch calls share: threads, and errors that name the first bad parameter.
 #pragma once
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 

@@ -2,7 +2,8 @@
 // The kernels of one instruction set. Each instruction set's file defines one table; dispatch.cpp chooses.
 //
 // All return how many leading parameters were good: less than the count where a parameter lies outside the domain or is
-// NaN, or where the denominator vanishes (Stop says which). Nothing beyond the tile of a bad parameter is written.
+// NaN, or where the denominator vanishes (Stop says which; then `good` is the first of its tile). Nothing beyond the tile of
+// a bad parameter is written.
 #pragma once
 
 #include <cstddef>
@@ -29,13 +30,14 @@ struct SurfaceCall {
 
 struct KernelTable {
   Progress (*surface)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count);
-  // Rows of the grid: item i · count_v + j. `good` counts items of the failing kind along its own direction.
+  // Item i · count_v + j at (u[i], v[j]). REQUIRES all parameters in the domain. Where the denominator vanishes, `good` is
+  // the first item of a block of rows that holds the place.
   Progress (*grid)(const SurfacePieces&, const SurfaceCall&, const double* u, std::size_t count_u, const double* v,
                    std::size_t count_v);
   // Points with the bound of each (call.bound), or enclosures (call.lower, call.upper).
   Progress (*bounded)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count);
   Progress (*curve)(const CurvePieces&, const CurveOutput&, bool left, const double* t, std::size_t count);
-  // Point and the bound of its distance from the exact one before the last rounding; see compensated_kernels.h.
+  // Points, and for each: may it differ from the double nearest to the exact one? See compensated_kernels.h.
   Progress (*compensated)(const SurfacePieces&, const SurfaceCall&, const double* u, const double* v, std::size_t count,
                           unsigned char* undecided);
 };

@@ -51,7 +51,6 @@ class Sink {
   }
 
   bool wanted() const { return kind_ != Kind::none; }
-  const VectorArray& array() const { return a_; }
 
   // The vectors of parameters at…at + kLanes − 1. Streamed: REQUIRES at to be a multiple of kLanes.
   PATCHPROOF_INLINE void put(std::size_t at, V x, V y, V z) const {

@@ -54,18 +54,15 @@ Result<BatchSummary> bounded(const kernels::SurfacePieces& pieces, std::span<con
                     [&](std::size_t i) { return describe_uv(u[i], v[i]); });
 }
 
-// The span of `knots` that the kernels take for t, as a curve's or patch's only span.
-KnotVector<Rational> only_span(const std::vector<double>& knots, const kernels::Axis& axis, double t, bool left) {
-  const double* begins = axis.begins(left);
-  const int span = static_cast<int>(std::upper_bound(begins + 1, begins + axis.count, t) - begins) - 1;
-  const int first = axis.knot_span[span] - axis.degree;
-  std::vector<Rational> out;
-  for (int i = 0; i < 2 * axis.degree + 2; ++i) out.push_back(from_double(knots[first + i]));
-  return KnotVector<Rational>::make_unchecked(axis.degree, std::move(out));
-}
+// Of the span that the kernels take for t: its first control point, and its knots as those of a patch of one span.
 int first_control(const kernels::Axis& axis, double t, bool left) {
   const double* begins = axis.begins(left);
   return axis.knot_span[std::upper_bound(begins + 1, begins + axis.count, t) - begins - 1] - axis.degree;
+}
+KnotVector<Rational> only_span(const std::vector<double>& knots, const kernels::Axis& axis, int first) {
+  std::vector<Rational> out;
+  for (int i = 0; i < 2 * axis.degree + 2; ++i) out.push_back(from_double(knots[first + i]));
+  return KnotVector<Rational>::make_unchecked(axis.degree, std::move(out));
 }
 
 // The doubles nearest to the exact point. False where the denominator is exactly zero.
@@ -83,8 +80,8 @@ bool exact_point(const kernels::SurfacePieces& s, const kernels::SurfaceCall& ca
       point[3] = w;
       net.push_back(point);
     }
-  const BsplinePatch<Rational, 4> local(only_span(s.knots_u, s.u, u, call.left_u),
-                                        only_span(s.knots_v, s.v, v, call.left_v), std::move(net));
+  const BsplinePatch<Rational, 4> local(only_span(s.knots_u, s.u, first_u), only_span(s.knots_v, s.v, first_v),
+                                        std::move(net));
   const Vec<Rational, 4> a = evaluate(local, from_double(u), from_double(v));
   if (a[3] == Rational(0)) return false;
   *out.x = nearest_double(a[0] / a[3]) + 0.0;  // no −0
