@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model: a set of patches as read from a file, exact, plus the joins that the file declares (if any).
+// A model: a set of patches and curves as read from a file, exact, plus the joins that the file declares (if any).
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/scalar/quadratic.h"
 #include "patchproof/scalar/rational.h"
+#include "patchproof/spline/curve.h"
 
 namespace patchproof {
 
@@ -25,6 +26,16 @@ struct ModelPatch {
   bool is_rational = false;
 };
 
+// A curve with homogeneous control points (w·x, w·y, w·z, w). is_rational is false when every weight is 1.
+// ENSURES (for curves that a reader returns) the denominator is certified to have no zero on the domain.
+template <ExactField T>
+struct ModelCurve {
+  std::string name;  // as in the file, or "" when it has none
+  BsplineCurve<T, 4> curve;
+  bool is_rational = false;
+  int dimension = 3;  // 2: the file gives x and y only, and z = 0
+};
+
 // A join that the file declares: the first edge, the second edge, and whether their directions are opposite.
 struct DeclaredJoin {
   int patch_a, patch_b;  // 0-based
@@ -35,6 +46,7 @@ struct DeclaredJoin {
 template <ExactField T>
 struct Model {
   std::vector<ModelPatch<T>> patches;
+  std::vector<ModelCurve<T>> curves;
   std::vector<DeclaredJoin> joins;  // empty: joins are found from the geometry
   std::string units;                // "" when the file names none
 };
