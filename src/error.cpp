@@ -20,6 +20,9 @@ const char* to_string(ErrorCode code) {
     case ErrorCode::bad_reference: return "bad_reference";
     case ErrorCode::mixed_roots: return "mixed_roots";
     case ErrorCode::outside_domain: return "outside_domain";
+    case ErrorCode::domains_differ: return "domains_differ";
+    case ErrorCode::curves_apart: return "curves_apart";
+    case ErrorCode::twists_differ: return "twists_differ";
     case ErrorCode::usage: return "usage";
   }
   return "unknown";

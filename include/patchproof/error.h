@@ -31,6 +31,9 @@ enum class ErrorCode {
   bad_reference,     // patch 7 of a model with 6 patches
   mixed_roots,       // sqrt(2) and sqrt(3) in one model
   outside_domain,    // parameter 1.5 of a patch over [0, 1], a parameter that is NaN
+  domains_differ,    // boundary curves over [0, 1] and over [0, 2] that face each other
+  curves_apart,      // boundary curves that do not meet in a corner, curves of a network that do not cross
+  twists_differ,     // cross-boundary derivatives whose mixed derivatives disagree in a corner
   usage,             // a request that makes no sense
 };
 
