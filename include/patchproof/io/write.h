@@ -2,10 +2,12 @@
 // Writing models: our JSON (docs/formats.md), with every number exact.
 //
 // Numbers are written as decimals where that is exact and short, else as strings: "1/3", "1/2*sqrt(2)". Knots are left out
-// where they are Bézier knots on [0, 1]. A rational patch is written with points in space and "weights", or, when a weight
-// is zero, with homogeneous points [w·x, w·y, w·z, w].
+// where they are Bézier knots on [0, 1]. A rational curve or patch is written with points and "weights", or, when a weight is
+// zero, with homogeneous points, such as [w·x, w·y, w·z, w].
 //
-// ENSURES  (1) read_model_text(write_model_json(m)) gives m back: the same names, units, knots, homogeneous points and joins
+// REQUIRES curves of dimension 2 lie in the plane z = 0.
+// ENSURES  (1) read_model_text(write_model_json(m)) gives m back: the same curves and patches with their names, knots and
+//          homogeneous points, the same units and joins
 //          (names and units in UTF-8; no number with more than kMaxDigits characters as a fraction: the reader refuses it);
 //          (2) the same model gives the same bytes.
 // NEIGHBOURS read.h
