@@ -14,7 +14,7 @@
 // Derivatives follow the full product rule, ∂_s M = Σ N'_i C_i + Σ N_i ∂_s C_i, since they are taken by evaluating at power
 // series (scalar/power_series.h).
 //
-// REQUIRES  parameters in the domain: [t_p, t_n] of the blends in that coordinate, [0, 1] for a coordinate without a blend.
+// REQUIRES  parameters in the domain: [t_p, t_n] of the blends in that coordinate; without a blend anywhere.
 //           …_at: any parameters; the piece next to `place` is continued.
 // ENSURES   (1) evaluate is the formula above;  (2) a blend with constants only is the B-spline curve of its points, and a
 //           blend of such blends in another coordinate the tensor-product patch;  (3) Bézier blends interpolate: M = C_0
@@ -80,6 +80,7 @@ class TransfiniteMap {
 
   // Empty when the map does not depend on x_s.
   const CoordinateDomain<K>& dependence(std::size_t s) const { return node_->domains[s]; }
+  // [0, 1] where it does not.
   K domain_begin(std::size_t s) const { return dependence(s) ? dependence(s)->first : K(0); }
   K domain_end(std::size_t s) const { return dependence(s) ? dependence(s)->second : K(1); }
 
@@ -257,8 +258,9 @@ namespace detail {
 template <Ring T, std::size_t D, std::size_t N, OrderedField K>
 void require_in_domain(const TransfiniteMap<T, D, N, K>& map, const ParameterPlace<K, D>& place) {
   for (std::size_t s = 0; s < D; ++s)
-    PATCHPROOF_REQUIRES(map.domain_begin(s) <= place.at[s] && place.at[s] <= map.domain_end(s),
-                        "TransfiniteMap: the parameter lies outside the domain");
+    PATCHPROOF_REQUIRES(
+        !map.dependence(s) || (map.dependence(s)->first <= place.at[s] && place.at[s] <= map.dependence(s)->second),
+        "TransfiniteMap: the parameter lies outside the domain");
 }
 
 }  // namespace detail
