@@ -87,6 +87,9 @@ int run(const Options& options) {
   for (const std::string& path : options.models) {
     Result<ModelFile> file = read_model(path, options.decimals);
     if (!file) return report_error(file.error());
+    if (std::visit([](const auto& model) { return model.patches.empty(); }, file->model))
+      return report_error(
+          {ErrorCode::wrong_count, path, "the model has no patches, so there are no joins to certify", ""});
     files.push_back(std::move(*file));
     std::error_code ignored;
     if (options.json != "-" && std::filesystem::equivalent(path, options.json, ignored))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,62 +14,131 @@ namespace {
 
 struct Options {
   std::string model, at, scalar = "rational", json;
-  int patch = 0, derivatives = 0;
+  std::optional<int> patch, curve;
+  int derivatives = 0;
   bool left = false;
   Decimals decimals = Decimals::exact;
+  Side side() const { return left ? Side::left : Side::right; }
 };
 
-// All derivatives of total order up to the one asked, as texts.
+// All derivatives up to the order asked, as texts.
 struct Evaluation {
   struct Row {
-    int k, l;  // ∂^(k+l) / ∂u^k ∂v^l
-    std::array<std::string, 3> value;
+    std::string name;                         // "S_uv", "C''"
+    std::vector<std::pair<char, int>> order;  // {{'u', 1}, {'v', 1}}, {{'t', 2}}
+    std::vector<std::string> value;
   };
+  const char* what;  // "patch" or "curve"
+  int index;
   std::vector<Row> rows;
 };
 
 template <Ring T>
-Evaluation texts(const PartialDerivatives<T, 3>& derivatives, int order) {
-  Evaluation out;
+std::vector<std::string> texts(const Vec<T, 3>& x, int dimension) {
+  std::vector<std::string> out;
+  for (int c = 0; c < dimension; ++c) out.push_back(to_text(x[c]));
+  return out;
+}
+
+template <Ring T>
+std::vector<Evaluation::Row> rows(const PartialDerivatives<T, 3>& derivatives, int order) {
+  std::vector<Evaluation::Row> out;
   for (int total = 0; total <= order; ++total)
     for (int l = 0; l <= total; ++l) {
-      const Vec<T, 3>& x = derivatives.at(total - l, l);
-      out.rows.push_back({total - l, l, {to_text(x[0]), to_text(x[1]), to_text(x[2])}});
+      const int k = total - l;
+      out.push_back({total == 0 ? "S" : "S_" + std::string(k, 'u') + std::string(l, 'v'),
+                     {{'u', k}, {'v', l}},
+                     texts(derivatives.at(k, l), 3)});
     }
   return out;
 }
 
+template <Ring T>
+std::vector<Evaluation::Row> rows(const std::vector<Vec<T, 3>>& derivatives, int dimension) {
+  std::vector<Evaluation::Row> out;
+  for (int k = 0; k < static_cast<int>(derivatives.size()); ++k)
+    out.push_back(
+        {k <= 3 ? "C" + std::string(k, '\'') : fmt::format("C^({})", k), {{'t', k}}, texts(derivatives[k], dimension)});
+  return out;
+}
+
 template <ExactField T>
-Result<Evaluation> evaluate_model(const Model<T>& model, const Options& o) {
-  if (o.patch < 0 || o.patch >= static_cast<int>(model.patches.size()))
-    return Error{ErrorCode::bad_reference, "--patch",
-                 fmt::format("the model has patches 0 to {}", model.patches.size() - 1), std::to_string(o.patch)};
-  const BsplinePatch<T, 4>& surface = model.patches[o.patch].surface;
+Result<T> parameter(const char* name, const std::string& text, const KnotVector<T>& knots) {
+  Result<T> x = parse_scalar<T>(text);
+  if (!x) return Error{x.error().code, "--at", x.error().message, x.error().values};
+  if (!knots.in_domain(*x))
+    return Error{ErrorCode::outside_domain, "--at",
+                 fmt::format("{} lies outside the domain [{}, {}]", name, to_text(knots.domain_begin()),
+                             to_text(knots.domain_end())),
+                 to_text(*x)};
+  return x;
+}
+
+template <ExactField T>
+Result<std::vector<Evaluation::Row>> evaluate_patch(const BsplinePatch<T, 4>& surface, const Options& o) {
+  const KnotVector<T>&knots_u = surface.knots(Direction::u), &knots_v = surface.knots(Direction::v);
   const std::size_t comma = o.at.find(',');
   if (comma == std::string::npos) return Error{ErrorCode::usage, "--at", "two parameters U,V are needed", o.at};
-  const Result<T> u = parse_scalar<T>(o.at.substr(0, comma)), v = parse_scalar<T>(o.at.substr(comma + 1));
-  for (const Result<T>* x : {&u, &v})
-    if (!*x) return Error{x->error().code, "--at", x->error().message, x->error().values};
-  for (const auto& [name, x, d] : {std::tuple{"u", *u, Direction::u}, std::tuple{"v", *v, Direction::v}})
-    if (!surface.knots(d).in_domain(x))
-      return Error{ErrorCode::usage, "--at",
-                   fmt::format("{} lies outside the domain [{}, {}]", name, to_text(surface.knots(d).domain_begin()),
-                               to_text(surface.knots(d).domain_end())),
-                   to_text(x)};
+  const Result<T> u = parameter("u", o.at.substr(0, comma), knots_u);
+  if (!u) return u.error();
+  const Result<T> v = parameter("v", o.at.substr(comma + 1), knots_v);
+  if (!v) return v.error();
   const int k = o.derivatives;
-  const Side side = o.left ? Side::left : Side::right;
-  if (o.scalar == "rational") return texts(rational_derivatives(surface, *u, *v, k, k, side, side), k);
-  const int span_u = surface.knots(Direction::u).find_span(*u, side),
-            span_v = surface.knots(Direction::v).find_span(*v, side);
+  if (o.scalar == "rational") return rows(rational_derivatives(surface, *u, *v, k, k, o.side(), o.side()), k);
+  const int span_u = knots_u.find_span(*u, o.side()), span_v = knots_v.find_span(*v, o.side());
   if (o.scalar == "interval") {
     const RoundingGuard guard;
-    return texts(rational_derivatives(partial_derivatives_in_span<Interval>(
-                     surface, span_u, span_v, embed<Interval>(*u), embed<Interval>(*v), k, k)),
-                 k);
+    return rows(rational_derivatives(partial_derivatives_in_span<Interval>(surface, span_u, span_v, embed<Interval>(*u),
+                                                                           embed<Interval>(*v), k, k)),
+                k);
   }
-  return texts(rational_derivatives(partial_derivatives_in_span<double>(surface, span_u, span_v, nearest_double(*u),
-                                                                        nearest_double(*v), k, k)),
-               k);
+  return rows(rational_derivatives(partial_derivatives_in_span<double>(surface, span_u, span_v, nearest_double(*u),
+                                                                       nearest_double(*v), k, k)),
+              k);
+}
+
+template <Ring R, ExactField T>
+std::vector<Vec<R, 3>> derivatives_at(const BsplineCurve<T, 4>& curve, const T& at, const R& t, const Options& o) {
+  const int span = curve.knots().find_span(at, o.side());
+  std::vector<Vec<R, 4>> homogeneous;
+  for (int k = 0; k <= o.derivatives; ++k) homogeneous.push_back(derivative_in_span<R>(curve, span, t, k));
+  return rational_derivatives(homogeneous);
+}
+
+template <ExactField T>
+Result<std::vector<Evaluation::Row>> evaluate_curve(const ModelCurve<T>& model, const Options& o) {
+  const Result<T> t = parameter("t", o.at, model.curve.knots());
+  if (!t) return t.error();
+  if (o.scalar == "rational") return rows(derivatives_at(model.curve, *t, *t, o), model.dimension);
+  if (o.scalar == "interval") {
+    const RoundingGuard guard;
+    return rows(derivatives_at(model.curve, *t, embed<Interval>(*t), o), model.dimension);
+  }
+  return rows(derivatives_at(model.curve, *t, nearest_double(*t), o), model.dimension);
+}
+
+// `count` curves or patches: is there one of this index?
+std::optional<Error> check_index(const char* option, const char* plural, std::size_t count, int index) {
+  if (index >= 0 && static_cast<std::size_t>(index) < count) return std::nullopt;
+  const std::string has = count == 0 ? fmt::format("the model has no {}", plural)
+                                     : fmt::format("the model has {} 0 to {}", plural, count - 1);
+  return Error{ErrorCode::bad_reference, option, has, std::to_string(index)};
+}
+
+template <ExactField T>
+Result<Evaluation> evaluate_model(const Model<T>& model, const Options& o) {
+  const bool curve = o.curve || (!o.patch && model.patches.empty());
+  if (curve && !o.curve && model.curves.size() > 1)
+    return Error{ErrorCode::usage, "evaluate",
+                 fmt::format("the model has curves 0 to {}: --curve says which", model.curves.size() - 1), ""};
+  const int index = curve ? o.curve.value_or(0) : o.patch.value_or(0);
+  if (const std::optional<Error> error = curve ? check_index("--curve", "curves", model.curves.size(), index)
+                                               : check_index("--patch", "patches", model.patches.size(), index))
+    return *error;
+  Result<std::vector<Evaluation::Row>> rows =
+      curve ? evaluate_curve(model.curves[index], o) : evaluate_patch(model.patches[index].surface, o);
+  if (!rows) return rows.error();
+  return Evaluation{curve ? "curve" : "patch", index, std::move(*rows)};
 }
 
 int run(const Options& o) {
@@ -85,17 +155,19 @@ int run(const Options& o) {
   if (!result) return report_error(result.error());
   std::string text;
   if (!o.json.empty()) {
-    nlohmann::ordered_json json{{"tool", "patchproof"}, {"version", PATCHPROOF_VERSION},
-                                {"file", o.model},      {"sha256", file->sha256},
-                                {"patch", o.patch},     {"at", o.at},
+    nlohmann::ordered_json json{{"tool", "patchproof"},   {"version", PATCHPROOF_VERSION}, {"file", o.model},
+                                {"sha256", file->sha256}, {result->what, result->index},   {"at", o.at},
                                 {"scalar", o.scalar}};
-    for (const auto& row : result->rows) json["values"].push_back({{"du", row.k}, {"dv", row.l}, {"value", row.value}});
+    for (const Evaluation::Row& row : result->rows) {
+      nlohmann::ordered_json entry;
+      for (const auto& [parameter, order] : row.order) entry[std::string("d") + parameter] = order;
+      entry["value"] = row.value;
+      json["values"].push_back(std::move(entry));
+    }
     text = json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   } else {
-    for (const auto& row : result->rows) {
-      const std::string name = row.k + row.l == 0 ? "S" : "S_" + std::string(row.k, 'u') + std::string(row.l, 'v');
-      text += fmt::format("{:<8}{}  {}  {}\n", name, row.value[0], row.value[1], row.value[2]);
-    }
+    for (const Evaluation::Row& row : result->rows)
+      text += fmt::format("{:<8}{}\n", row.name, fmt::join(row.value, "  "));
   }
   return write_output(o.json.empty() ? "-" : o.json, text);
 }
@@ -104,13 +176,18 @@ int run(const Options& o) {
 
 void add_evaluate(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("evaluate", "points and derivatives of one patch, exactly or enclosed");
+  CLI::App* command =
+      app.add_subcommand("evaluate", "points and derivatives of one patch or curve, exactly or enclosed");
   command->add_option("model", o->model, "file to read")->required()->type_name("MODEL");
-  command->add_option("--patch", o->patch, "which patch, from 0 [0]")->option_text("I");
-  command->add_option("--at", o->at, "parameters in the patch's own domain, e.g. 1/3,0.25")
+  CLI::Option* patch = command->add_option("--patch", o->patch, "which patch, from 0 [0]")->option_text("I");
+  command->add_option("--curve", o->curve, "which curve, from 0 [the only one of a model without patches]")
+      ->excludes(patch)
+      ->option_text("I");
+  command
+      ->add_option("--at", o->at, "parameters in the own domain of the patch, e.g. 1/3,0.25, or of the curve, e.g. 1/3")
       ->required()
-      ->option_text("U,V");
-  command->add_option("--derivatives", o->derivatives, "all partial derivatives up to this order [0]")
+      ->option_text("U,V|T");
+  command->add_option("--derivatives", o->derivatives, "all derivatives up to this order [0]")
       ->check(CLI::Range(0, 20))
       ->option_text("K");
   command->add_option("--scalar", o->scalar, "number type [rational]")

@@ -3,7 +3,7 @@
 // two degrees; a .bez patch is bicubic. Both may carry # comments.
 #include <fmt/format.h>
 
-#include "raw_patch.h"
+#include "raw_spline.h"
 #include "text_cursor.h"
 
 namespace patchproof {
@@ -17,7 +17,7 @@ std::optional<Error> read_patches(const SourceFile& source, ModelSink& sink, boo
   if (*patches < 1)
     return source.error(ErrorCode::wrong_count, header, "the number of patches is not positive", header);
 
-  RawPatch patch;
+  RawSpline patch;
   for (long p = 0; p < *patches; ++p) {
     if (cursor.at_end())
       return source.error(ErrorCode::wrong_count, header,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // GoTools' and SISL's .g2: a sequence of objects, each with a header "class major minor n", n integers, and a body.
-//   100 spline curve (checked and left out)   200 spline surface   210 bounded surface (read when nothing is cut away)
+//   100 spline curve   200 spline surface   210 bounded surface (read when nothing is cut away)
 // Rational coefficients are homogeneous (w·x, w·y, w·z, w); the first parameter runs fastest.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "raw_patch.h"
+#include "raw_spline.h"
 #include "text_cursor.h"
 
 namespace patchproof {
@@ -14,13 +14,13 @@ namespace {
 
 constexpr long kSplineCurve = 100, kSplineSurface = 200, kBoundedSurface = 210;
 
-// A curve in the parameter plane or in space, as far as trimming needs it.
-struct RawCurve {
-  int per_point = 0;
-  bool rational = false;
-  bool clamped = false;  // begins and ends at its first and last coefficient
-  std::vector<std::string_view> coordinates;
-};
+// Begins and ends at its first and last coefficient.
+bool is_clamped(const RawSpline& curve) {
+  const std::vector<std::string_view>& knots = curve.knots[0];
+  const auto order = curve.degree[0] + 1;
+  return std::all_of(knots.begin(), knots.begin() + order, [&](auto t) { return t == knots.front(); }) &&
+         std::all_of(knots.end() - order, knots.end(), [&](auto t) { return t == knots.back(); });
+}
 
 class G2Reader {
  public:
@@ -30,10 +30,10 @@ class G2Reader {
   std::optional<Error> read() {
     while (!cursor_.at_end())
       if (!object()) return error_;
-    if (sink_.patch_count() == 0)
-      return cursor_.ended(ErrorCode::unsupported, "the file holds no spline surface",
-                           fmt::format("{} curves", curves_));
-    if (curves_ > 0) sink_.notes.push_back(fmt::format("{} curve{} skipped", curves_, curves_ == 1 ? "" : "s"));
+    if (sink_.patch_count() == 0 && sink_.curve_count() == 0)
+      return cursor_.ended(ErrorCode::unsupported, "the file holds no spline surface and no curve in plane or space");
+    if (functions_ > 0)
+      sink_.notes.push_back(fmt::format("{} curve{} of dimension 1 skipped", functions_, functions_ == 1 ? "" : "s"));
     return std::nullopt;
   }
 
@@ -60,92 +60,79 @@ class G2Reader {
     if (!integer("the number of auxiliary integers", 0, 1000, extra)) return false;
     for (long i = 0, ignored; i < extra; ++i)
       if (!integer("an auxiliary integer", -1000000000, 1000000000, ignored)) return false;
+    RawSpline spline;
+    spline.at = at;
     if (type == kSplineCurve) {
-      ++curves_;
-      RawCurve ignored;
-      return spline_curve(ignored);
+      if (!spline_curve(spline)) return false;
+      return spline.dimension() == 1 ? ++functions_, true : deliver(spline);
     }
-    RawPatch patch;
-    patch.at = at;
-    if (type == kSplineSurface) return spline_surface(patch) && deliver(patch);
-    if (type == kBoundedSurface) return bounded_surface(patch) && deliver(patch);
+    if (type == kSplineSurface) return spline_surface(spline) && deliver(spline);
+    if (type == kBoundedSurface) return bounded_surface(spline) && deliver(spline);
     return fail(source_.error(
         ErrorCode::unsupported, at,
         "only objects of class 100 (spline curve), 200 (spline surface) and 210 (bounded surface) are read", at));
   }
 
-  bool deliver(const RawPatch& patch) {
-    error_ = sink_.add(patch);
+  bool deliver(const RawSpline& spline) {
+    error_ = sink_.add(spline);
     return !error_;
   }
 
   // "dimension rational"
-  bool dimension_line(long low, int& per_point, bool& rational) {
+  bool dimension_line(long low, RawSpline& spline) {
     long dimension, flag;
     if (!integer("the dimension of space", low, 3, dimension, ErrorCode::unsupported)) return false;
     if (!integer("the flag for rational", 0, 1, flag)) return false;
-    rational = flag == 1;
-    per_point = static_cast<int>(dimension + flag);
+    spline.weight_form = flag == 1 ? Weights::homogeneous : Weights::none;
+    spline.per_point = static_cast<int>(dimension + flag);
     return true;
   }
 
   // "count order" and count + order knots.
-  bool basis(std::string_view direction, long& count, long& degree, RawPatch& patch,
-             std::vector<std::string_view>& knots) {
-    long order;
-    if (!integer(fmt::format("the number of coefficients along {}", direction), 1, kMaxFileBytes, count,
-                 ErrorCode::wrong_count))
+  bool basis(RawSpline& spline, int direction) {
+    long order, &count = spline.count[direction];
+    const std::string_view along = spline.along(direction);
+    if (!integer(fmt::format("the number of coefficients{}", along), 1, kMaxFileBytes, count, ErrorCode::wrong_count))
       return false;
-    if (!integer(fmt::format("the order along {}", direction), 2, kMaxDegree + 1, order, ErrorCode::bad_degree))
-      return false;
-    degree = order - 1;
+    const long lowest = spline.is_curve() ? 1 : 2;
+    if (!integer(fmt::format("the order{}", along), lowest, kMaxDegree + 1, order, ErrorCode::bad_degree)) return false;
+    spline.degree[direction] = order - 1;
     if (count < order)
       return fail(source_.error(ErrorCode::wrong_count, cursor_.last(),
-                                fmt::format("fewer coefficients than the order along {}", direction),
+                                fmt::format("fewer coefficients than the order{}", along),
                                 fmt::format("{} coefficients, order {}", count, order)));
-    if (cursor_.take(static_cast<std::size_t>(count + order), knots)) return true;
-    return ended_inside(patch, "knots");
+    if (cursor_.take(static_cast<std::size_t>(count + order), spline.knots[direction])) return true;
+    return ended_inside(spline, "knots");
   }
 
-  bool ended_inside(const RawPatch& patch, std::string_view what) {
-    error_ = sink_.first_bad_number(patch);
+  bool ended_inside(const RawSpline& spline, std::string_view what) {
+    error_ = sink_.first_bad_number(spline);
     if (!error_)
       error_ = cursor_.ended(ErrorCode::syntax, fmt::format("the file ends inside the {} of an object", what));
     return false;
   }
 
-  bool spline_surface(RawPatch& patch) {
-    bool rational;
-    if (!dimension_line(2, patch.per_point, rational)) return false;
-    patch.weight_form = rational ? Weights::homogeneous : Weights::none;
-    patch.has_knots = true;
-    patch.u_fastest = true;
-    if (!basis("u", patch.count[0], patch.degree[0], patch, patch.knots[0])) return false;
-    if (!basis("v", patch.count[1], patch.degree[1], patch, patch.knots[1])) return false;
-    const std::size_t needed = static_cast<std::size_t>(patch.count[0]) * patch.count[1] * patch.per_point;
-    if (cursor_.take(needed, patch.coordinates)) return true;
-    return ended_inside(patch, "coefficients");
+  bool coefficients(RawSpline& spline, std::size_t points) {
+    return cursor_.take(points * spline.per_point, spline.coordinates) || ended_inside(spline, "coefficients");
   }
 
-  bool spline_curve(RawCurve& curve) {
-    RawPatch texts;  // only to complain about unreadable numbers
-    if (!dimension_line(1, curve.per_point, curve.rational)) return false;
-    texts.per_point = curve.per_point;
-    long count, degree;
-    if (!basis("the curve", count, degree, texts, texts.knots[0])) return false;
-    if (!cursor_.take(static_cast<std::size_t>(count) * curve.per_point, texts.coordinates))
-      return ended_inside(texts, "coefficients");
-    error_ = sink_.first_bad_number(texts);
-    const auto& knots = texts.knots[0];
-    curve.clamped =
-        std::all_of(knots.begin(), knots.begin() + degree + 1, [&](auto t) { return t == knots.front(); }) &&
-        std::all_of(knots.end() - degree - 1, knots.end(), [&](auto t) { return t == knots.back(); });
-    curve.coordinates = std::move(texts.coordinates);
+  bool spline_surface(RawSpline& patch) {
+    patch.has_knots = true;
+    patch.u_fastest = true;
+    return dimension_line(2, patch) && basis(patch, 0) && basis(patch, 1) &&
+           coefficients(patch, static_cast<std::size_t>(patch.count[0]) * patch.count[1]);
+  }
+
+  bool spline_curve(RawSpline& curve) {
+    curve.directions = 1;
+    curve.has_knots = true;
+    if (!dimension_line(1, curve) || !basis(curve, 0) || !coefficients(curve, curve.count[0])) return false;
+    error_ = sink_.first_bad_number(curve);
     return !error_;
   }
 
   // 210: a surface, then loops of curves on it. Legal here when the one loop is the rectangle of the domain.
-  bool bounded_surface(RawPatch& patch) {
+  bool bounded_surface(RawSpline& patch) {
     long type, loops, curves, ignored;
     if (!integer("the class of the bounded surface", 1, 99999, type)) return false;
     if (type != kSplineSurface)
@@ -156,7 +143,7 @@ class G2Reader {
     if (loops != 1) return trimmed(patch, fmt::format("{} loops", loops));
     if (!integer("the number of curves in a loop", 1, 1000000, curves)) return false;
     if (cursor_.next().empty()) return ended_inside(patch, "loops");  // the loop's tolerance
-    std::vector<RawCurve> loop;
+    std::vector<RawSpline> loop;
     for (long c = 0; c < curves; ++c) {
       long plane_type, space_type;
       if (!integer("the flag for the preferred curve", 0, 1, ignored)) return false;
@@ -164,14 +151,14 @@ class G2Reader {
       if (!integer("the class of the space curve", 0, 99999, space_type)) return false;
       if (plane_type != kSplineCurve || (space_type != kSplineCurve && space_type != 0))
         return trimmed(patch, fmt::format("curve classes {} and {}", plane_type, space_type));
-      RawCurve space;
+      RawSpline space;
       if (!spline_curve(loop.emplace_back())) return false;
       if (space_type == kSplineCurve && !spline_curve(space)) return false;
     }
     return is_whole(patch, loop) || (error_ ? false : trimmed(patch, "a loop inside the domain"));
   }
 
-  bool trimmed(const RawPatch& patch, std::string values) {
+  bool trimmed(const RawSpline& patch, std::string values) {
     return fail(source_.error(
         ErrorCode::unsupported, patch.at,
         "a trimmed surface: only bounded surfaces whose loop is the border of the domain are read", values));
@@ -179,7 +166,7 @@ class G2Reader {
 
   // Exactly: every parameter curve stays on one side of the domain's rectangle, each begins where the one before ends, and
   // the loop meets each of the four corners, in the order of one turn.
-  bool is_whole(const RawPatch& patch, const std::vector<RawCurve>& loop) {
+  bool is_whole(const RawSpline& patch, const std::vector<RawSpline>& loop) {
     std::array<Rational, 2> low, high;
     for (int d = 0; d < 2; ++d)
       if (!value(patch.knots[d][patch.degree[d]], low[d]) || !value(patch.knots[d][patch.count[d]], high[d]))
@@ -188,7 +175,7 @@ class G2Reader {
     std::vector<Point> corners;
     Point last, first;
     for (std::size_t c = 0; c < loop.size(); ++c) {
-      if (loop[c].rational || !loop[c].clamped || loop[c].per_point != 2) return false;
+      if (loop[c].weight_form != Weights::none || !is_clamped(loop[c]) || loop[c].per_point != 2) return false;
       std::vector<Point> points;
       for (std::size_t k = 0; k + 1 < loop[c].coordinates.size(); k += 2) {
         Point p;
@@ -239,7 +226,7 @@ class G2Reader {
   ModelSink& sink_;
   TextCursor cursor_;
   std::optional<Error> error_;
-  long curves_ = 0;
+  long functions_ = 0;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G+Smo's XML: <Geometry type="TensorBSpline2|TensorNurbs2"> elements, and <MultiPatch> elements that name some of them.
+// G+Smo's XML: <Geometry type="BSpline|Nurbs|TensorBSpline2|TensorNurbs2"> elements, and <MultiPatch> elements that name
+// some of them.
 // The first parameter runs fastest; weights stand apart and are not multiplied into the coefficients. Declared interfaces
 // are often incomplete in real files, so joins are left to the geometry.
 #include <fmt/format.h>
@@ -9,7 +10,7 @@
 #include <cstring>
 #include <set>
 
-#include "raw_patch.h"
+#include "raw_spline.h"
 #include "text_cursor.h"
 
 namespace patchproof {
@@ -36,9 +37,11 @@ class GismoReader {
       if (!geometry(node)) return error_;
     for (const pugi::xml_node node : root.children("MultiPatch"))
       if (!multi_patch(node)) return error_;
-    if (sink_.patch_count() == 0)
-      return source_.error(ErrorCode::unsupported, source_.bytes, "the file holds no <Geometry> that is a surface");
-    if (curves_ > 0) sink_.notes.push_back(fmt::format("{} curve{} skipped", curves_, curves_ == 1 ? "" : "s"));
+    if (sink_.patch_count() == 0 && sink_.curve_count() == 0)
+      return source_.error(ErrorCode::unsupported, source_.bytes,
+                           "the file holds no <Geometry> that is a curve or a surface");
+    if (functions_ > 0)
+      sink_.notes.push_back(fmt::format("{} curve{} of dimension 1 skipped", functions_, functions_ == 1 ? "" : "s"));
     if (interfaces_) sink_.notes.emplace_back("declared interfaces are not used: joins are found from the geometry");
     return std::nullopt;
   }
@@ -84,44 +87,57 @@ class GismoReader {
     const std::string_view id = node.attribute("id").value();
     if (!id.empty() && !ids_.insert(std::string(id)).second)
       return fail(ErrorCode::bad_reference, node, "two geometries with the same id", id);
-    if (type == "BSpline" || type == "Nurbs") {
-      ++curves_;
-      return true;
-    }
-    const bool rational = type == "TensorNurbs2";
-    if (!rational && type != "TensorBSpline2")
-      return fail(ErrorCode::unsupported, node, "only geometries of type TensorBSpline2 and TensorNurbs2 are read",
-                  type);
+    const bool is_curve = type == "BSpline" || type == "Nurbs", rational = type == "Nurbs" || type == "TensorNurbs2";
+    if (!is_curve && !rational && type != "TensorBSpline2")
+      return fail(ErrorCode::unsupported, node,
+                  "only geometries of type BSpline, Nurbs, TensorBSpline2 and TensorNurbs2 are read", type);
 
-    RawPatch patch;
-    patch.name = id;
-    patch.at = view(node);
-    patch.u_fastest = true;
-    patch.has_knots = true;
+    RawSpline spline;
+    spline.directions = is_curve ? 1 : 2;
+    spline.name = id;
+    spline.at = view(node);
+    spline.u_fastest = !is_curve;
+    spline.has_knots = true;
     pugi::xml_node basis = node.child("Basis");
     if (rational) {
       const pugi::xml_node weights = basis.child("weights");
-      if (!weights) return fail(ErrorCode::syntax, basis ? basis : node, "a TensorNurbs2 without <weights>");
-      patch.weights = words(weights);
-      patch.weight_form = Weights::separate;
+      if (!weights) return fail(ErrorCode::syntax, basis ? basis : node, fmt::format("a {} without <weights>", type));
+      spline.weights = words(weights);
+      spline.weight_form = Weights::separate;
       basis = basis.child("Basis");
     }
-    if (!bases(basis ? basis : node, patch)) return false;
+    if (!basis) return fail(ErrorCode::syntax, node, "a <Geometry> without <Basis>");
+    if (is_curve ? !knots(basis, spline, 0) : !tensor_knots(basis, spline)) return false;
 
     const pugi::xml_node coefficients = node.child("coefs");
     if (!coefficients) return fail(ErrorCode::syntax, node, "a <Geometry> without <coefs>");
     long dimension;
     if (!integer(coefficients, "geoDim", dimension)) return false;
+    if (is_curve && dimension == 1) return ++functions_, true;
     if (dimension != 2 && dimension != 3)
       return fail(ErrorCode::unsupported, coefficients, "only geoDim 2 and 3 are read", std::to_string(dimension));
-    patch.per_point = static_cast<int>(dimension);
-    patch.coordinates = words(coefficients);
-    error_ = sink_.add(patch);
+    spline.per_point = static_cast<int>(dimension);
+    spline.coordinates = words(coefficients);
+    error_ = sink_.add(spline);
     return !error_;
   }
 
+  // <KnotVector degree="…"> inside a basis of one direction.
+  bool knots(pugi::xml_node basis, RawSpline& spline, int direction) {
+    const pugi::xml_node knots = basis.child("KnotVector");
+    if (!knots) return fail(ErrorCode::syntax, basis, "a <Basis> without <KnotVector>");
+    long& degree = spline.degree[direction];
+    if (!integer(knots, "degree", degree)) return false;
+    spline.knots[direction] = words(knots);
+    // Control points are not counted in this format: knots and degree say how many there must be.
+    spline.count[direction] = 1;
+    if (degree >= 0 && degree <= kMaxDegree)  // others are refused by the builder
+      spline.count[direction] = static_cast<long>(spline.knots[direction].size()) - degree - 1;
+    return true;
+  }
+
   // The two <Basis type="BSplineBasis" index="…"> inside a tensor basis.
-  bool bases(pugi::xml_node tensor, RawPatch& patch) {
+  bool tensor_knots(pugi::xml_node tensor, RawSpline& patch) {
     std::array<bool, 2> seen{};
     int position = 0;
     for (const pugi::xml_node basis : tensor.children("Basis")) {
@@ -131,13 +147,7 @@ class GismoReader {
         return fail(ErrorCode::syntax, basis, "a tensor basis has the indices 0 and 1, once each",
                     std::to_string(index));
       seen[index] = true;
-      const pugi::xml_node knots = basis.child("KnotVector");
-      if (!knots) return fail(ErrorCode::syntax, basis, "a <Basis> without <KnotVector>");
-      if (!integer(knots, "degree", patch.degree[index])) return false;
-      patch.knots[index] = words(knots);
-      // Control points are not counted in this format: knots and degree say how many there must be.
-      if (patch.degree[index] >= 1 && patch.degree[index] <= kMaxDegree)  // others are refused by the builder
-        patch.count[index] = static_cast<long>(patch.knots[index].size()) - patch.degree[index] - 1;
+      if (!knots(basis, patch, static_cast<int>(index))) return false;
     }
     if (seen[0] && seen[1]) return true;
     return fail(ErrorCode::syntax, tensor, "a tensor basis needs two <Basis> elements");
@@ -174,7 +184,7 @@ class GismoReader {
   pugi::xml_document document_;
   std::optional<Error> error_;
   std::set<std::string> ids_;
-  long curves_ = 0;
+  long functions_ = 0;
   bool interfaces_ = false;
 };
 

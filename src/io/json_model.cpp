@@ -1,38 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Our own JSON model (docs/formats.md, docs/model.schema.json). Patches are delivered one by one as the file is walked
-// through, so memory holds the finished patches and one unfinished patch.
+// Our own JSON model (docs/formats.md, docs/model.schema.json). Curves and patches are delivered one by one as the file is
+// walked through, so memory holds the finished ones and one that is not.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "json_walker.h"
-#include "raw_patch.h"
+#include "json_spline.h"
 #include "text_cursor.h"
 
 namespace patchproof {
 namespace {
 
 enum Node {
-  kRoot,
+  kRoot = kSplineNodes,
   kFormat,
   kVersion,
   kUnits,
+  kCurves,
+  kCurve,
   kPatches,
   kPatch,
-  kName,
-  kDegrees,
-  kDegree,
-  kKnots,
-  kKnotVector,
-  kKnot,
-  kNet,
-  kRow,
-  kPoint,
-  kCoordinate,
-  kWeights,
-  kWeightRow,
-  kWeight,
   kJoins,
   kJoin,
   kSideA,
@@ -47,21 +35,29 @@ constexpr JsonRule kRules[] = {
     {kRoot, "format", kFormat, JsonType::string, true},
     {kRoot, "version", kVersion, JsonType::integer, true},
     {kRoot, "units", kUnits, JsonType::string},
-    {kRoot, "patches", kPatches, JsonType::array, true},
+    {kRoot, "curves", kCurves, JsonType::array},
+    {kRoot, "patches", kPatches, JsonType::array},
     {kRoot, "joins", kJoins, JsonType::array},
+    {kCurves, "", kCurve, JsonType::object},
+    {kCurve, "name", kName, JsonType::string},
+    {kCurve, "degree", kDegree, JsonType::integer, true},
+    {kCurve, "knots", kKnots, JsonType::array},
+    {kCurve, "control_points", kRow, JsonType::array, true},
+    {kCurve, "weights", kWeightRow, JsonType::array},
+    {kCurve, "homogeneous", kHomogeneous, JsonType::boolean},
     {kPatches, "", kPatch, JsonType::object},
     {kPatch, "name", kName, JsonType::string},
-    {kPatch, "degree", kDegrees, JsonType::array, true},
-    {kPatch, "knots", kKnots, JsonType::array},
-    {kPatch, "control_points", kNet, JsonType::array, true},
-    {kPatch, "weights", kWeights, JsonType::array},
+    {kPatch, "degree", kDegrees, JsonType::array},
+    {kPatch, "knots", kKnotVectors, JsonType::array},
+    {kPatch, "control_points", kNet, JsonType::array},
+    {kPatch, "weights", kWeightNet, JsonType::array},
     {kDegrees, "", kDegree, JsonType::integer},
-    {kKnots, "", kKnotVector, JsonType::array},
-    {kKnotVector, "", kKnot, JsonType::number},
+    {kKnotVectors, "", kKnots, JsonType::array},
+    {kKnots, "", kKnot, JsonType::number},
     {kNet, "", kRow, JsonType::array},
     {kRow, "", kPoint, JsonType::array},
     {kPoint, "", kCoordinate, JsonType::number},
-    {kWeights, "", kWeightRow, JsonType::array},
+    {kWeightNet, "", kWeightRow, JsonType::array},
     {kWeightRow, "", kWeight, JsonType::number},
     {kJoins, "", kJoin, JsonType::object},
     {kJoin, "a", kSideA, JsonType::object, true},
@@ -73,36 +69,15 @@ constexpr JsonRule kRules[] = {
     {kSideB, "edge", kSideEdge, JsonType::string, true},
 };
 
-// How a nested array is filled: rows so far, entries of the row, entries of the first row.
-struct Shape {
-  long rows = 0, entries = 0, row_length = 0;
-  bool row_fits() {
-    if (rows++ == 0) row_length = entries;
-    return entries == row_length;
-  }
-};
-
 class ModelVisitor final : public JsonVisitor {
  public:
   ModelVisitor(const SourceFile& source, ModelSink& sink) : source_(source), sink_(sink) {}
 
   std::optional<Error> begin(int node, const JsonWalker& walker) override {
+    if (node < kSplineNodes) return spline_.begin(node, walker);
     switch (node) {
-      case kPatch:
-        patch_ = RawPatch{};
-        patch_.layout = JsonLayout::model;
-        patch_.pointer = walker.pointer();
-        patch_.at = walker.here();
-        net_ = weights_ = Shape{};
-        degrees_ = knot_vectors_ = components_ = 0;
-        break;
-      case kKnotVector:
-        if (knot_vectors_ == 2)
-          return walker.error(ErrorCode::wrong_count, "a patch has two knot vectors, for u and for v");
-        break;
-      case kRow: net_.entries = 0; break;
-      case kPoint: components_ = 0; break;
-      case kWeightRow: weights_.entries = 0; break;
+      case kCurve: spline_.start(1, walker); break;
+      case kPatch: spline_.start(2, walker); break;
       case kJoin: join_ = {}; break;
       default: break;
     }
@@ -110,35 +85,13 @@ class ModelVisitor final : public JsonVisitor {
   }
 
   std::optional<Error> end(int node, const JsonWalker& walker) override {
+    if (node < kSplineNodes) return spline_.end(node, walker);
     switch (node) {
       case kRoot: return finish(walker);
-      case kPatch: return finish_patch(walker);
-      case kDegrees:
-        if (degrees_ != 2)
-          return walker.error(ErrorCode::wrong_count, "two degrees should stand here", count_text(degrees_));
-        break;
-      case kKnotVector: ++knot_vectors_; break;
-      case kKnots:
-        patch_.has_knots = true;
-        if (knot_vectors_ != 2)
-          return walker.error(ErrorCode::wrong_count, "two knot vectors should stand here", count_text(knot_vectors_));
-        break;
-      case kRow:
-        if (!net_.row_fits())
-          return walker.error(ErrorCode::wrong_count,
-                              fmt::format("the first row has {} control points", net_.row_length),
-                              count_text(net_.entries));
-        break;
-      case kPoint: return finish_point(walker);
-      case kWeightRow:
-        if (!weights_.row_fits())
-          return walker.error(ErrorCode::wrong_count, fmt::format("the first row has {} weights", weights_.row_length),
-                              count_text(weights_.entries));
-        break;
-      case kWeights:
-        // An empty array is no list of weights either.
-        if (weights_.rows == 0) return walker.error(ErrorCode::wrong_count, "weights should stand here", "0");
-        break;
+      case kCurve:
+      case kPatch:
+        if (std::optional<Error> error = spline_.finish(source_, walker)) return error;
+        return sink_.add(spline_.raw());
       case kJoin: joins_.push_back(join_); break;
       case kSideA: join_.patch_a = side_patch_, join_.edge_a = side_edge_, check_later('a'); break;
       case kSideB: join_.patch_b = side_patch_, join_.edge_b = side_edge_, check_later('b'); break;
@@ -148,6 +101,7 @@ class ModelVisitor final : public JsonVisitor {
   }
 
   std::optional<Error> leaf(int node, std::string_view text, const JsonWalker& walker) override {
+    if (node < kSplineNodes) return spline_.leaf(node, text, walker);
     switch (node) {
       case kFormat:
         if (text != "patchproof-model")
@@ -157,18 +111,6 @@ class ModelVisitor final : public JsonVisitor {
         if (text != "1") return walker.error(ErrorCode::unsupported, "only version 1 of the format is read", text);
         break;
       case kUnits: sink_.units = text; break;
-      case kName: patch_.name = text; break;
-      case kDegree: {
-        const std::optional<long> degree = to_integer(text);
-        if (degrees_ == 2)
-          return walker.error(ErrorCode::wrong_count, "a patch has two degrees, for u and for v", text);
-        if (!degree) return walker.error(ErrorCode::bad_degree, "the degree is too large", text);
-        patch_.degree[degrees_++] = *degree;
-        break;
-      }
-      case kKnot: patch_.knots[knot_vectors_].push_back(text); break;
-      case kCoordinate: ++components_, patch_.coordinates.push_back(text); break;
-      case kWeight: ++weights_.entries, patch_.weights.push_back(text); break;
       case kReversed: join_.reversed = text == "true"; break;
       case kSidePatch: {
         const std::optional<long> index = to_integer(text);
@@ -192,60 +134,27 @@ class ModelVisitor final : public JsonVisitor {
   }
 
  private:
-  static std::string count_text(long count) { return std::to_string(count); }
-
   // Joins may stand before the patches: the largest index is compared with their number at the end.
   void check_later(char side) {
     if (!largest_ || side_patch_ > largest_->patch) largest_ = Reference{side_patch_, side_text_, joins_.size(), side};
   }
 
-  std::optional<Error> finish_point(const JsonWalker& walker) {
-    if (net_.rows == 0 && net_.entries == 0) {
-      if (components_ != 3 && components_ != 4)
-        return walker.error(ErrorCode::wrong_count, "a point is [x, y, z], or homogeneous [w·x, w·y, w·z, w]",
-                            count_text(components_));
-      patch_.per_point = static_cast<int>(components_);
-    } else if (components_ != patch_.per_point) {
-      return walker.error(ErrorCode::wrong_count, fmt::format("the first point has {} numbers", patch_.per_point),
-                          count_text(components_));
-    }
-    ++net_.entries;
-    return std::nullopt;
-  }
-
-  std::optional<Error> finish_patch(const JsonWalker& walker) {
-    patch_.count = {net_.rows, net_.row_length};
-    if (patch_.per_point == 4) patch_.weight_form = Weights::homogeneous;
-    if (weights_.rows > 0) {
-      if (patch_.per_point == 4)
-        return walker.error(ErrorCode::syntax,
-                            "homogeneous points of four numbers carry their weights: no \"weights\" beside them");
-      patch_.weight_form = Weights::separate;
-      if (weights_.rows != net_.rows || weights_.row_length != net_.row_length)
-        return source_.error(ErrorCode::wrong_count, patch_.weights.empty() ? patch_.at : patch_.weights.front(),
-                             fmt::format("{} x {} control points need as many weights", net_.rows, net_.row_length),
-                             fmt::format("{} x {} weights", weights_.rows, weights_.row_length),
-                             patch_.pointer + "/weights");
-    }
-    return sink_.add(patch_);
-  }
-
   std::optional<Error> finish(const JsonWalker& walker) {
     const std::size_t patches = sink_.patch_count();
-    if (patches == 0) return walker.error(ErrorCode::wrong_count, "the model has no patches");
+    if (patches == 0 && sink_.curve_count() == 0)
+      return walker.error(ErrorCode::wrong_count, "the model has neither patches nor curves");
     if (largest_ && static_cast<std::size_t>(largest_->patch) >= patches)
       return source_.error(ErrorCode::bad_reference, largest_->text,
-                           fmt::format("the model has patches 0 … {}", patches - 1), largest_->text,
-                           fmt::format("/joins/{}/{}/patch", largest_->join, largest_->side));
+                           patches == 0 ? std::string("the model has no patches, only curves")
+                                        : fmt::format("the model has patches 0 … {}", patches - 1),
+                           largest_->text, fmt::format("/joins/{}/{}/patch", largest_->join, largest_->side));
     sink_.joins = std::move(joins_);
     return std::nullopt;
   }
 
   const SourceFile& source_;
   ModelSink& sink_;
-  RawPatch patch_;
-  Shape net_, weights_;
-  long degrees_ = 0, knot_vectors_ = 0, components_ = 0;
+  JsonSpline spline_;
   std::vector<DeclaredJoin> joins_;
   struct Reference {
     int patch;

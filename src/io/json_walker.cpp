@@ -70,7 +70,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 JsonWalker::JsonWalker(const SourceFile& source, std::span<const JsonRule> rules, UnknownKeys unknown,
                        JsonVisitor& visitor)
     : source_(source), rules_(rules), unknown_(unknown), visitor_(visitor), position_(source.bytes.data()) {
-  PATCHPROOF_REQUIRES(rules.size() <= 64, "JsonWalker: the seen keys are kept in 64 bits");
+  PATCHPROOF_REQUIRES(rules.size() <= kMaxRules, "JsonWalker: too many rules");
 }
 
 std::string JsonWalker::pointer() const {
@@ -107,6 +107,26 @@ const JsonRule* JsonWalker::find(int parent, std::string_view key) const {
 
 const JsonRule* JsonWalker::expected() const { return frames_.empty() ? find(kNoParent, "") : frames_.back().element; }
 
+const JsonRule* JsonWalker::accepting(const JsonRule* first, JsonType found, std::string_view text) const {
+  const auto takes = [&](JsonType type) {
+    return type == found || (type == JsonType::number && found == JsonType::string) ||
+           (type == JsonType::integer && found == JsonType::number && text.find_first_of(".eE") == text.npos);
+  };
+  const JsonRule* const end = rules_.data() + rules_.size();
+  for (const JsonRule* rule = first; rule != end && rule->parent == first->parent && rule->key == first->key; ++rule)
+    if (takes(rule->type)) return rule;
+  return nullptr;
+}
+
+// "an object or an array"
+std::string JsonWalker::expectation(const JsonRule* first) const {
+  std::string out = to_string(first->type);
+  const JsonRule* const end = rules_.data() + rules_.size();
+  for (const JsonRule* rule = first + 1; rule < end && rule->parent == first->parent && rule->key == first->key; ++rule)
+    out += std::string(" or ") + to_string(rule->type);
+  return out;
+}
+
 void JsonWalker::value_done() {
   if (frames_.empty()) return;
   if (frames_.back().rule->type == JsonType::array)
@@ -117,14 +137,12 @@ void JsonWalker::value_done() {
 
 bool JsonWalker::scalar(JsonType found, std::string_view text, const char* name) {
   if (skipped_depth_ > 0) return true;
-  const JsonRule* rule = expected();
-  if (rule != nullptr && rule->type != JsonType::ignored) {
-    const bool fits = rule->type == found || (rule->type == JsonType::number && found == JsonType::string) ||
-                      (rule->type == JsonType::integer && found == JsonType::number &&
-                       text.find_first_of(".eE") == std::string_view::npos);
-    if (!fits)
+  const JsonRule* first = expected();
+  if (first != nullptr && first->type != JsonType::ignored) {
+    const JsonRule* rule = accepting(first, found, text);
+    if (rule == nullptr)
       return fail(
-          error(ErrorCode::syntax, fmt::format("{} should stand here, not {}", to_string(rule->type), name), text));
+          error(ErrorCode::syntax, fmt::format("{} should stand here, not {}", expectation(first), name), text));
     error_ = visitor_.leaf(rule->node, text, *this);
     if (error_) return false;
   }
@@ -134,13 +152,14 @@ bool JsonWalker::scalar(JsonType found, std::string_view text, const char* name)
 
 bool JsonWalker::open(JsonType found, const char* name) {
   if (skipped_depth_ > 0) return ++skipped_depth_, true;
-  const JsonRule* rule = expected();
-  if (rule == nullptr || rule->type == JsonType::ignored) return skipped_depth_ = 1, true;
-  if (rule->type != found)
-    return fail(error(ErrorCode::syntax, fmt::format("{} should stand here, not {}", to_string(rule->type), name)));
+  const JsonRule* first = expected();
+  if (first == nullptr || first->type == JsonType::ignored) return skipped_depth_ = 1, true;
+  const JsonRule* rule = accepting(first, found);
+  if (rule == nullptr)
+    return fail(error(ErrorCode::syntax, fmt::format("{} should stand here, not {}", expectation(first), name)));
   error_ = visitor_.begin(rule->node, *this);
   if (error_) return false;
-  Frame frame{rule, nullptr, 0, 0, {}};
+  Frame frame{rule, nullptr};
   if (found == JsonType::array) frame.element = find(rule->node, "");
   frames_.push_back(std::move(frame));
   return true;
@@ -155,7 +174,7 @@ bool JsonWalker::close() {
   frames_.pop_back();
   if (frame.rule->type == JsonType::object)
     for (std::size_t i = 0; i < rules_.size(); ++i)
-      if (rules_[i].parent == frame.rule->node && rules_[i].required && !(frame.seen >> i & 1))
+      if (rules_[i].parent == frame.rule->node && rules_[i].required && !frame.seen[i])
         return fail(error(ErrorCode::syntax, fmt::format("the key \"{}\" is missing", rules_[i].key)));
   error_ = visitor_.end(frame.rule->node, *this);
   if (error_) return false;
@@ -193,7 +212,8 @@ bool JsonWalker::number() { return scalar(JsonType::number, number_text(), "a nu
 
 bool JsonWalker::string(const std::string& value) {
   // A number inside a string is handed over as a view into the file, too, unless escapes make the two differ.
-  const JsonRule* rule = skipped_depth_ > 0 ? nullptr : expected();
+  const JsonRule* first = skipped_depth_ > 0 ? nullptr : expected();
+  const JsonRule* rule = first == nullptr ? nullptr : accepting(first, JsonType::string);
   if (rule == nullptr || rule->type != JsonType::number) return scalar(JsonType::string, value, "a string");
   const std::size_t end = static_cast<std::size_t>(position_ - source_.bytes.data()) - 1;  // the closing quote
   const std::size_t begin = source_.bytes.rfind('"', end - 1) + 1;
@@ -201,7 +221,7 @@ bool JsonWalker::string(const std::string& value) {
   return scalar(JsonType::string, written == value ? written : rewritten_.emplace_back(value), "a string");
 }
 
-bool JsonWalker::key(const std::string& name) {
+bool JsonWalker::enter_key(const std::string& name) {
   if (skipped_depth_ > 0) return true;
   Frame& frame = frames_.back();
   frame.key = name;
@@ -216,9 +236,9 @@ bool JsonWalker::key(const std::string& name) {
     const std::string hint = closest == nullptr ? "" : fmt::format("; did you mean \"{}\"?", closest->key);
     return fail(error(ErrorCode::syntax, "this key is not known" + hint, name));
   }
-  const std::uint64_t bit = std::uint64_t{1} << (frame.element - rules_.data());
-  if (frame.seen & bit) return fail(error(ErrorCode::syntax, "this key stands twice in one object", name));
-  frame.seen |= bit;
+  const std::size_t bit = static_cast<std::size_t>(frame.element - rules_.data());
+  if (frame.seen[bit]) return fail(error(ErrorCode::syntax, "this key stands twice in one object", name));
+  frame.seen.set(bit);
   return true;
 }
 
@@ -249,7 +269,7 @@ struct JsonEvents {
   bool string(std::string& value) { return walker.string(value); }
   bool binary(Json::binary_t&) { return false; }  // not in JSON texts
   bool start_object(std::size_t) { return walker.open(JsonType::object, "an object"); }
-  bool key(std::string& name) { return walker.key(name); }
+  bool key(std::string& name) { return walker.enter_key(name); }
   bool end_object() { return walker.close(); }
   bool start_array(std::size_t) { return walker.open(JsonType::array, "an array"); }
   bool end_array() { return walker.close(); }

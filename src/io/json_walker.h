@@ -3,7 +3,7 @@
 // costs no stack, and numbers are handed over as they are written.
 #pragma once
 
-#include <cstdint>
+#include <bitset>
 #include <deque>
 #include <optional>
 #include <span>
@@ -25,8 +25,9 @@ enum class JsonType {
   ignored,  // anything, skipped
 };
 
-// The value under `key` of the object `parent` (or an element of the array `parent`, key "") is the node `node`.
-// The root's parent is kNoParent.
+// The value under `key` of the object `parent` (or an element of the array `parent`, key "") is the node `node`. A node may
+// stand under several keys and parents. Rules with the same parent and key, one after another, are alternatives of
+// different types; the first of them says whether the key is required. The root's parent is kNoParent.
 inline constexpr int kNoParent = -1;
 struct JsonRule {
   int parent;
@@ -35,6 +36,8 @@ struct JsonRule {
   JsonType type;
   bool required = false;
 };
+
+inline constexpr std::size_t kMaxRules = 128;
 
 enum class UnknownKeys { refused, skipped };
 
@@ -57,6 +60,8 @@ class JsonWalker {
 
   // Of the value being handled: "/patches/3/knots/0".
   std::string pointer() const;
+  // In an object: the key under which that value stands. REQUIRES not to be called for the root.
+  const std::string& key() const { return frames_.back().key; }
   // Just before the place up to which the file has been read.
   std::string_view here() const;
   Error error(ErrorCode code, std::string message, std::string_view values = {}) const;
@@ -65,18 +70,21 @@ class JsonWalker {
   friend struct JsonEvents;  // the parser's SAX interface, in json_walker.cpp
   struct Frame {
     const JsonRule* rule;     // of the object or array itself
-    const JsonRule* element;  // of the array's elements, or of the current key's value; nullptr: skipped
-    std::uint64_t seen = 0;   // object: the keys so far, by their place in the table
-    std::size_t index = 0;    // array
-    std::string key;          // object
+    const JsonRule* element;  // the first for the array's elements or the current key's value; nullptr: skipped
+    std::bitset<kMaxRules> seen = {};  // object: the keys so far, by their place in the table
+    std::size_t index = 0;             // array
+    std::string key = {};              // object
   };
   const JsonRule* find(int parent, std::string_view key) const;
   const JsonRule* expected() const;
+  // The one of `first` and its alternatives that takes a value of this type; nullptr when there is none.
+  const JsonRule* accepting(const JsonRule* first, JsonType found, std::string_view text = {}) const;
+  std::string expectation(const JsonRule* first) const;
   bool fail(Error error);
   bool scalar(JsonType found, std::string_view text, const char* name);
   bool open(JsonType found, const char* name);
   bool close();
-  bool key(const std::string& name);
+  bool enter_key(const std::string& name);
   bool number();
   bool string(const std::string& value);
   bool parse_error(int id, std::string message);

@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <type_traits>
 
 #include "patchproof/patch/denominator.h"
+#include "patchproof/spline/curve_denominator.h"
 
 namespace patchproof {
 namespace {
-
-constexpr std::array<char, 2> kDirectionName = {'u', 'v'};
 
 // 2^1000: below it every bound of a gap is a finite double.
 template <ExactField T>
@@ -31,6 +31,11 @@ bool is_small(const T& x, const T& limit = size_limit<T>()) {
 template <ExactField T>
 bool is_one(const T& x) {
   return x == T(1);
+}
+
+template <ExactField T>
+bool any_weight(const std::vector<Vec<T, 4>>& points) {
+  return std::any_of(points.begin(), points.end(), [](const Vec<T, 4>& p) { return !is_one(p[3]); });
 }
 
 }  // namespace
@@ -68,57 +73,61 @@ bool ModelBuilder<T>::number(std::string_view text, const Pointer& pointer, T& v
 }
 
 template <ExactField T>
-std::optional<Error> ModelBuilder<T>::first_bad_number(const RawPatch& patch) {
+std::optional<Error> ModelBuilder<T>::first_bad_number(const RawSpline& spline) {
   error_.reset();
   T ignored;
   for (int d = 0; d < 2; ++d)
-    for (std::size_t k = 0; k < patch.knots[d].size(); ++k)
+    for (std::size_t k = 0; k < spline.knots[d].size(); ++k)
       if (!number(
-              patch.knots[d][k], [&] { return patch.knot_pointer(d, k); }, ignored))
+              spline.knots[d][k], [&] { return spline.knot_pointer(d, k); }, ignored))
         return error_;
-  for (std::size_t k = 0; k < patch.coordinates.size(); ++k) {
+  for (std::size_t k = 0; k < spline.coordinates.size(); ++k) {
     const auto pointer = [&] {
-      return patch.coordinate_pointer(k / patch.per_point, static_cast<int>(k % patch.per_point));
+      return spline.coordinate_pointer(k / spline.per_point, static_cast<int>(k % spline.per_point));
     };
-    if (!number(patch.coordinates[k], pointer, ignored)) return error_;
+    if (!number(spline.coordinates[k], pointer, ignored)) return error_;
   }
-  for (std::size_t k = 0; k < patch.weights.size(); ++k)
+  for (std::size_t k = 0; k < spline.weights.size(); ++k)
     if (!number(
-            patch.weights[k], [&] { return patch.weight_pointer(k); }, ignored))
+            spline.weights[k], [&] { return spline.weight_pointer(k); }, ignored))
       return error_;
   return std::nullopt;
 }
 
 template <ExactField T>
-std::optional<KnotVector<T>> ModelBuilder<T>::knots(const RawPatch& patch, int d) {
-  const int degree = static_cast<int>(patch.degree[d]);
-  if (!patch.has_knots) return KnotVector<T>::bezier(degree);
-  const auto& texts = patch.knots[d];
-  const std::string_view first = texts.empty() ? patch.at : texts.front();
-  const std::string member =
-      patch.layout == JsonLayout::geomdl ? fmt::format("knotvector_{}", kDirectionName[d]) : fmt::format("knots/{}", d);
+std::optional<KnotVector<T>> ModelBuilder<T>::knots(const RawSpline& spline, int d) {
+  const long lowest = spline.is_curve() ? 0 : 1;
+  const std::string_view along = spline.along(d);
+  if (spline.degree[d] < lowest || spline.degree[d] > kMaxDegree) {
+    fail(ErrorCode::bad_degree, spline.at, fmt::format("the degree{} is not in {} … {}", along, lowest, kMaxDegree),
+         fmt::format("{}", spline.degree[d]), spline.degree_pointer(d));
+    return std::nullopt;
+  }
+  const int degree = static_cast<int>(spline.degree[d]);
+  if (!spline.has_knots) return KnotVector<T>::bezier(degree);
+  const auto& texts = spline.knots[d];
+  const std::string_view first = texts.empty() ? spline.at : texts.front();
 
   std::vector<T> values(texts.size());
   for (std::size_t k = 0; k < texts.size(); ++k)
     if (!number(
-            texts[k], [&] { return patch.knot_pointer(d, k); }, values[k]))
+            texts[k], [&] { return spline.knot_pointer(d, k); }, values[k]))
       return std::nullopt;
   for (std::size_t k = 1; k < values.size(); ++k)
     if (values[k] < values[k - 1]) {
-      fail(ErrorCode::decreasing_knots, texts[k],
-           fmt::format("knot {} along {} is smaller than the one before it", k, kDirectionName[d]),
-           fmt::format("{} after {}", texts[k], texts[k - 1]), patch.knot_pointer(d, k));
+      fail(ErrorCode::decreasing_knots, texts[k], fmt::format("knot {}{} is smaller than the one before it", k, along),
+           fmt::format("{} after {}", texts[k], texts[k - 1]), spline.knot_pointer(d, k));
       return std::nullopt;
     }
-  for (std::size_t begin = 0; begin < values.size();) {
+  // Curves are taken with knots of any multiplicity: control points without influence hurt nobody there.
+  for (std::size_t begin = 0; begin < values.size() && !spline.is_curve();) {
     std::size_t end = begin + 1;
     while (end < values.size() && values[end] == values[begin]) ++end;
     // A domain of nothing but one knot is better called empty.
     if (end - begin > static_cast<std::size_t>(degree) + 1 && end - begin < values.size()) {
       fail(ErrorCode::bad_multiplicity, texts[begin],
-           fmt::format("a knot along {} stands {} times; degree {} allows {}", kDirectionName[d], end - begin, degree,
-                       degree + 1),
-           texts[begin], patch.knot_pointer(d, begin));
+           fmt::format("a knot{} stands {} times; degree {} allows {}", along, end - begin, degree, degree + 1),
+           texts[begin], spline.knot_pointer(d, begin));
       return std::nullopt;
     }
     begin = end;
@@ -127,48 +136,47 @@ std::optional<KnotVector<T>> ModelBuilder<T>::knots(const RawPatch& patch, int d
   if (!made) {
     const std::string shown =
         made.error().code == ErrorCode::empty_domain ? std::string(first) : fmt::format("{} knots", texts.size());
-    fail(made.error().code, first, fmt::format("knots along {}: {}", kDirectionName[d], made.error().message), shown,
-         patch.member_pointer(member));
+    fail(made.error().code, first, fmt::format("knots{}: {}", along, made.error().message), shown,
+         spline.knots_pointer(d));
     return std::nullopt;
   }
   return std::move(made).value();
 }
 
 template <ExactField T>
-bool ModelBuilder<T>::counts_fit(const RawPatch& patch, const std::array<int, 2>& needed) {
-  const std::string pointer = patch.member_pointer("control_points");
-  for (int d = 0; d < 2; ++d)
-    if (patch.count[d] != needed[d])
-      return fail(ErrorCode::wrong_count, patch.at,
-                  fmt::format("degree and knots along {} need {} control points", kDirectionName[d], needed[d]),
-                  fmt::format("{} control points", patch.count[d]), pointer);
+bool ModelBuilder<T>::counts_fit(const RawSpline& spline, const std::array<int, 2>& needed) {
+  for (int d = 0; d < spline.directions; ++d)
+    if (spline.count[d] != needed[d])
+      return fail(ErrorCode::wrong_count, spline.at,
+                  fmt::format("degree and knots{} need {} control points", spline.along(d), needed[d]),
+                  fmt::format("{} control points", spline.count[d]), spline.points_pointer());
   const std::size_t points = static_cast<std::size_t>(needed[0]) * needed[1];
-  if (patch.coordinates.size() != points * patch.per_point)
-    return fail(
-        ErrorCode::wrong_count, patch.coordinates.empty() ? patch.at : patch.coordinates.front(),
-        fmt::format("{} x {} control points need {} coordinates", needed[0], needed[1], points * patch.per_point),
-        fmt::format("{} coordinates", patch.coordinates.size()), pointer);
-  if (patch.weight_form == Weights::separate && patch.weights.size() != points)
-    return fail(ErrorCode::wrong_count, patch.weights.empty() ? patch.at : patch.weights.front(),
-                fmt::format("{} x {} control points need {} weights", needed[0], needed[1], points),
-                fmt::format("{} weights", patch.weights.size()), patch.weights_pointer());
+  const std::string net = spline.is_curve() ? fmt::format("{}", points) : fmt::format("{} x {}", needed[0], needed[1]);
+  if (spline.coordinates.size() != points * spline.per_point)
+    return fail(ErrorCode::wrong_count, spline.coordinates.empty() ? spline.at : spline.coordinates.front(),
+                fmt::format("{} control points need {} coordinates", net, points * spline.per_point),
+                fmt::format("{} coordinates", spline.coordinates.size()), spline.points_pointer());
+  if (spline.weight_form == Weights::separate && spline.weights.size() != points)
+    return fail(ErrorCode::wrong_count, spline.weights.empty() ? spline.at : spline.weights.front(),
+                fmt::format("{} control points need {} weights", net, points),
+                fmt::format("{} weights", spline.weights.size()), spline.weights_pointer());
   return true;
 }
 
 template <ExactField T>
-bool ModelBuilder<T>::point(const RawPatch& patch, std::size_t k, Vec<T, 4>& out) {
-  const int dimension = patch.dimension();
-  const std::string_view* texts = patch.coordinates.data() + k * patch.per_point;
+bool ModelBuilder<T>::point(const RawSpline& spline, std::size_t k, Vec<T, 4>& out) {
+  const int dimension = spline.dimension();
+  const std::string_view* texts = spline.coordinates.data() + k * spline.per_point;
   T& weight = out[3] = T(1);
   for (int c = 0; c < dimension; ++c)
     if (!number(
-            texts[c], [&] { return patch.coordinate_pointer(k, c); }, out[c]))
+            texts[c], [&] { return spline.coordinate_pointer(k, c); }, out[c]))
       return false;
-  if (patch.weight_form == Weights::none) return true;
-  const bool separate = patch.weight_form == Weights::separate;
-  const std::string_view weight_text = separate ? patch.weights[k] : texts[dimension];
+  if (spline.weight_form == Weights::none) return true;
+  const bool separate = spline.weight_form == Weights::separate;
+  const std::string_view weight_text = separate ? spline.weights[k] : texts[dimension];
   const auto weight_pointer = [&] {
-    return separate ? patch.weight_pointer(k) : patch.coordinate_pointer(k, dimension);
+    return separate ? spline.weight_pointer(k) : spline.coordinate_pointer(k, dimension);
   };
   if (!number(weight_text, weight_pointer, weight)) return false;
   if (is_one(weight)) return true;
@@ -178,59 +186,94 @@ bool ModelBuilder<T>::point(const RawPatch& patch, std::size_t k, Vec<T, 4>& out
     // Both w·x and x must be small; with weight 0 there is no x.
     if (is_small(out[c]) && (weight == T(0) || is_small(out[c], room))) continue;
     return fail(ErrorCode::bad_number, texts[c], "the point, with its weight, is not below 2^1000 in size",
-                fmt::format("{} with weight {}", texts[c], weight_text), patch.coordinate_pointer(k, c));
+                fmt::format("{} with weight {}", texts[c], weight_text), spline.coordinate_pointer(k, c));
   }
   return true;
 }
 
 template <ExactField T>
-bool ModelBuilder<T>::denominator_is_fine(const RawPatch& patch, const BsplinePatch<T, 4>& surface) {
-  const DenominatorVerdict<T> verdict = certify_denominator(surface);
-  if (verdict.is_nonzero()) return true;
-  const ParameterBox<T>& box = verdict.where;
-  const std::string where = fmt::format("u in [{}, {}], v in [{}, {}]", to_text(box.u_begin), to_text(box.u_end),
-                                        to_text(box.v_begin), to_text(box.v_end));
-  const std::string_view at = !patch.weights.empty() ? patch.weights.front() : patch.at;
-  const std::string pointer = patch.layout == JsonLayout::model && patch.weight_form == Weights::homogeneous
-                                  ? patch.member_pointer("control_points")
-                                  : patch.weights_pointer();
-  const bool proven = verdict.sign == DenominatorSign::vanishes;
+std::optional<std::vector<Vec<T, 4>>> ModelBuilder<T>::points(const RawSpline& spline,
+                                                              const std::array<int, 2>& count) {
+  if (!counts_fit(spline, count)) return std::nullopt;
+  std::vector<Vec<T, 4>> out(static_cast<std::size_t>(count[0]) * count[1]);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const std::size_t slot = spline.u_fastest ? (k % count[0]) * count[1] + k / count[0] : k;
+    if (!point(spline, k, out[slot])) return std::nullopt;
+  }
+  return out;
+}
+
+template <ExactField T>
+bool ModelBuilder<T>::denominator_fails(const RawSpline& raw, bool proven, std::string_view where) {
+  const std::string_view at = !raw.weights.empty() ? raw.weights.front() : raw.at;
+  const std::string pointer = raw.layout == JsonLayout::model && raw.weight_form == Weights::homogeneous
+                                  ? raw.points_pointer()
+                                  : raw.weights_pointer();
+  const std::string_view of = raw.is_curve() ? "the denominator of the curve" : "the denominator of the patch";
   return fail(ErrorCode::vanishing_weight, at,
-              proven ? "the weights make the denominator of the patch zero inside its domain"
-                     : "a zero of the denominator of the patch inside its domain could not be excluded",
+              proven ? fmt::format("the weights make {} zero inside its domain", of)
+                     : fmt::format("a zero of {} inside its domain could not be excluded", of),
               where, pointer);
 }
 
 template <ExactField T>
-std::optional<Error> ModelBuilder<T>::add(const RawPatch& patch) {
-  error_.reset();
-  for (int d = 0; d < 2; ++d)
-    if (patch.degree[d] < 1 || patch.degree[d] > kMaxDegree) {
-      fail(ErrorCode::bad_degree, patch.at,
-           fmt::format("the degree along {} is not in 1 … {}", kDirectionName[d], kMaxDegree),
-           fmt::format("{}", patch.degree[d]),
-           patch.layout == JsonLayout::geomdl ? patch.member_pointer(fmt::format("degree_{}", kDirectionName[d]))
-                                              : patch.member_pointer(fmt::format("degree/{}", d)));
-      return error_;
-    }
-  std::optional<KnotVector<T>> u = knots(patch, 0);
-  if (!u) return error_;
-  std::optional<KnotVector<T>> v = knots(patch, 1);
-  if (!v) return error_;
-  const std::array<int, 2> count = {u->control_count(), v->control_count()};
-  if (!counts_fit(patch, count)) return error_;
+bool ModelBuilder<T>::denominator_is_fine(const RawSpline& raw, const BsplinePatch<T, 4>& surface) {
+  const DenominatorVerdict<T> verdict = certify_denominator(surface);
+  if (verdict.is_nonzero()) return true;
+  const ParameterBox<T>& box = verdict.where;
+  return denominator_fails(raw, verdict.sign == DenominatorSign::vanishes,
+                           fmt::format("u in [{}, {}], v in [{}, {}]", to_text(box.u_begin), to_text(box.u_end),
+                                       to_text(box.v_begin), to_text(box.v_end)));
+}
 
-  std::vector<Vec<T, 4>> net(static_cast<std::size_t>(count[0]) * count[1]);
-  bool is_rational = false;
-  for (std::size_t k = 0; k < net.size(); ++k) {
-    const std::size_t slot = patch.u_fastest ? (k % count[0]) * count[1] + k / count[0] : k;
-    if (!point(patch, k, net[slot])) return error_;
-    is_rational = is_rational || !is_one(net[slot][3]);
+template <ExactField T>
+bool ModelBuilder<T>::denominator_is_fine(const RawSpline& raw, const BsplineCurve<T, 4>& curve) {
+  std::string where;
+  for (const DenominatorZero<T>& zero : certify_denominator(curve).zeros) {
+    if (!where.empty()) where += ", ";
+    where += zero.is_exact() ? "t = " + to_text(zero.begin)
+                             : fmt::format("t in [{}, {}]", to_text(zero.begin), to_text(zero.end));
   }
-  BsplinePatch<T, 4> surface(std::move(*u), std::move(*v), std::move(net));
-  if (is_rational && !denominator_is_fine(patch, surface)) return error_;
-  model_.patches.push_back({patch.name, std::move(surface), is_rational});
-  return std::nullopt;
+  return where.empty() || denominator_fails(raw, true, where);
+}
+
+template <ExactField T>
+std::optional<ModelCurve<T>> ModelBuilder<T>::curve(const RawSpline& raw) {
+  std::optional<KnotVector<T>> t = knots(raw, 0);
+  if (!t) return std::nullopt;
+  std::optional<std::vector<Vec<T, 4>>> control = points(raw, {t->control_count(), 1});
+  if (!control) return std::nullopt;
+  const bool is_rational = any_weight(*control);
+  BsplineCurve<T, 4> curve(std::move(*t), std::move(*control));
+  if (is_rational && !denominator_is_fine(raw, curve)) return std::nullopt;
+  return ModelCurve<T>{raw.name, std::move(curve), is_rational, raw.dimension()};
+}
+
+template <ExactField T>
+std::optional<ModelPatch<T>> ModelBuilder<T>::patch(const RawSpline& raw) {
+  std::optional<KnotVector<T>> u = knots(raw, 0);
+  if (!u) return std::nullopt;
+  std::optional<KnotVector<T>> v = knots(raw, 1);
+  if (!v) return std::nullopt;
+  std::optional<std::vector<Vec<T, 4>>> net = points(raw, {u->control_count(), v->control_count()});
+  if (!net) return std::nullopt;
+  const bool is_rational = any_weight(*net);
+  BsplinePatch<T, 4> surface(std::move(*u), std::move(*v), std::move(*net));
+  if (is_rational && !denominator_is_fine(raw, surface)) return std::nullopt;
+  return ModelPatch<T>{raw.name, std::move(surface), is_rational};
+}
+
+template <ExactField T>
+std::optional<Error> ModelBuilder<T>::add(const RawSpline& spline) {
+  error_.reset();
+  if (spline.is_curve()) {
+    std::optional<ModelCurve<T>> made = curve(spline);
+    if (made) model_.curves.push_back(std::move(*made));
+  } else {
+    std::optional<ModelPatch<T>> made = patch(spline);
+    if (made) model_.patches.push_back(std::move(*made));
+  }
+  return error_;
 }
 
 template <ExactField T>

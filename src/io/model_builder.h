@@ -3,7 +3,7 @@
 // knots, counts, sizes and weights is found here.
 #pragma once
 
-#include "raw_patch.h"
+#include "raw_spline.h"
 
 namespace patchproof {
 
@@ -13,9 +13,10 @@ class ModelBuilder final : public ModelSink {
  public:
   ModelBuilder(const SourceFile& source, Decimals decimals) : source_(source), decimals_(decimals) {}
 
-  std::optional<Error> add(const RawPatch& patch) override;
-  std::optional<Error> first_bad_number(const RawPatch& patch) override;
+  std::optional<Error> add(const RawSpline& spline) override;
+  std::optional<Error> first_bad_number(const RawSpline& spline) override;
   std::size_t patch_count() const override { return model_.patches.size(); }
+  std::size_t curve_count() const override { return model_.curves.size(); }
 
   // T = Rational: the error came from a root, so that the file should be read again over Q(√d).
   bool met_root() const { return met_root_; }
@@ -25,11 +26,18 @@ class ModelBuilder final : public ModelSink {
   // Reads one number. False: error_ says why.
   template <class Pointer>
   bool number(std::string_view text, const Pointer& pointer, T& value);
-  std::optional<KnotVector<T>> knots(const RawPatch& patch, int direction);
-  bool counts_fit(const RawPatch& patch, const std::array<int, 2>& needed);
+  // These return nothing, or false, when error_ says why.
+  std::optional<KnotVector<T>> knots(const RawSpline& spline, int direction);
+  bool counts_fit(const RawSpline& spline, const std::array<int, 2>& needed);
   // The homogeneous point number `k` of the file.
-  bool point(const RawPatch& patch, std::size_t k, Vec<T, 4>& out);
-  bool denominator_is_fine(const RawPatch& patch, const BsplinePatch<T, 4>& surface);
+  bool point(const RawSpline& spline, std::size_t k, Vec<T, 4>& out);
+  // All of them, with v running fastest.
+  std::optional<std::vector<Vec<T, 4>>> points(const RawSpline& spline, const std::array<int, 2>& count);
+  bool denominator_is_fine(const RawSpline& raw, const BsplinePatch<T, 4>& surface);
+  bool denominator_is_fine(const RawSpline& raw, const BsplineCurve<T, 4>& curve);
+  bool denominator_fails(const RawSpline& raw, bool proven, std::string_view where);
+  std::optional<ModelCurve<T>> curve(const RawSpline& raw);
+  std::optional<ModelPatch<T>> patch(const RawSpline& raw);
   bool fail(ErrorCode code, std::string_view at, std::string message, std::string_view values,
             std::string_view pointer);
 

@@ -3,7 +3,7 @@
 // x,y,z for each. The first four indices are the row at u = 0, along growing v.
 #include <fmt/format.h>
 
-#include "raw_patch.h"
+#include "raw_spline.h"
 #include "text_cursor.h"
 
 namespace patchproof {
@@ -61,7 +61,7 @@ std::optional<Error> read_newell(const SourceFile& source, ModelSink& sink) {
                         line);
   }
 
-  RawPatch patch;
+  RawSpline patch;
   patch.degree = {3, 3};
   patch.count = {4, 4};
   for (long p = 0; p < *patches; ++p) {

@@ -8,7 +8,7 @@
 
 #include "json_walker.h"
 #include "model_builder.h"
-#include "raw_patch.h"
+#include "raw_spline.h"
 #include "text_cursor.h"
 
 namespace patchproof {

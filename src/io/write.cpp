@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iterator>
 
 namespace patchproof {
@@ -58,37 +59,72 @@ void list(Buffer& out, int count, std::string_view separator, Element element) {
 }
 
 template <ExactField T>
+void knot_list(Buffer& out, const KnotVector<T>& knots) {
+  list(out, static_cast<int>(knots.knots().size()), ", ", [&](int i) { put(out, "{}", number(knots[i])); });
+}
+
+template <ExactField T>
 void knots(Buffer& out, const BsplinePatch<T, 4>& surface) {
-  const auto vector = [&](const KnotVector<T>& k) {
-    list(out, static_cast<int>(k.knots().size()), ", ", [&](int i) { put(out, "{}", number(k[i])); });
-  };
   const KnotVector<T>&u = surface.knots(Direction::u), &v = surface.knots(Direction::v);
   if (u == KnotVector<T>::bezier(u.degree()) && v == KnotVector<T>::bezier(v.degree())) return;
   put(out, ",\n      \"knots\": [");
-  vector(u);
+  knot_list(out, u);
   put(out, ", ");
-  vector(v);
+  knot_list(out, v);
   put(out, "]");
+}
+
+template <ExactField T>
+bool has_zero_weight(const std::vector<Vec<T, 4>>& points) {
+  return std::any_of(points.begin(), points.end(), [](const Vec<T, 4>& p) { return p[3] == T(0); });
+}
+
+// [x, y] or [x, y, z]; homogeneous: [w·x, w·y, w] or [w·x, w·y, w·z, w].
+template <ExactField T>
+void point(Buffer& out, const Vec<T, 4>& p, int dimension, bool homogeneous) {
+  list(out, dimension + (homogeneous ? 1 : 0), ", ", [&](int c) {
+    put(out, "{}", number(!homogeneous ? p[c] / p[3] : c == dimension ? p[3] : p[c]));
+  });
+}
+
+void begin_spline(Buffer& out, const std::string& name) {
+  put(out, "    {{\n");
+  if (!name.empty()) put(out, "      \"name\": {},\n", quoted(name));
+}
+
+template <ExactField T>
+void curve(Buffer& out, const ModelCurve<T>& curve) {
+  const KnotVector<T>& knots = curve.curve.knots();
+  const std::vector<Vec<T, 4>>& points = curve.curve.points();
+  const bool homogeneous = has_zero_weight(points);
+  const int count = static_cast<int>(points.size());
+  begin_spline(out, curve.name);
+  put(out, "      \"degree\": {}", knots.degree());
+  if (!(knots == KnotVector<T>::bezier(knots.degree()))) {
+    put(out, ",\n      \"knots\": ");
+    knot_list(out, knots);
+  }
+  if (homogeneous) put(out, ",\n      \"homogeneous\": true");
+  put(out, ",\n      \"control_points\": ");
+  list(out, count, ", ", [&](int i) { point(out, points[i], curve.dimension, homogeneous); });
+  if (curve.is_rational && !homogeneous) {
+    put(out, ",\n      \"weights\": ");
+    list(out, count, ", ", [&](int i) { put(out, "{}", number(points[i][3])); });
+  }
+  put(out, "\n    }}");
 }
 
 template <ExactField T>
 void patch(Buffer& out, const ModelPatch<T>& patch) {
   const BsplinePatch<T, 4>& surface = patch.surface;
   const int rows = surface.count(Direction::u), columns = surface.count(Direction::v);
-  bool homogeneous = false;
-  for (const Vec<T, 4>& p : surface.net()) homogeneous = homogeneous || p[3] == T(0);
-
-  put(out, "    {{\n");
-  if (!patch.name.empty()) put(out, "      \"name\": {},\n", quoted(patch.name));
+  const bool homogeneous = has_zero_weight(surface.net());
+  begin_spline(out, patch.name);
   put(out, "      \"degree\": [{}, {}]", surface.degree(Direction::u), surface.degree(Direction::v));
   knots(out, surface);
   put(out, ",\n      \"control_points\": ");
-  list(out, rows, ",\n        ", [&](int i) {
-    list(out, columns, ", ", [&](int j) {
-      const Vec<T, 4>& p = surface.point(i, j);
-      list(out, homogeneous ? 4 : 3, ", ", [&](int c) { put(out, "{}", number(homogeneous ? p[c] : p[c] / p[3])); });
-    });
-  });
+  list(out, rows, ",\n        ",
+       [&](int i) { list(out, columns, ", ", [&](int j) { point(out, surface.point(i, j), 3, homogeneous); }); });
   if (patch.is_rational && !homogeneous) {
     put(out, ",\n      \"weights\": ");
     list(out, rows, ",\n        ",
@@ -97,31 +133,34 @@ void patch(Buffer& out, const ModelPatch<T>& patch) {
   put(out, "\n    }}");
 }
 
+// ,
+//   "patches": [ … ]
+template <class Elements, class Put>
+void section(Buffer& out, const char* key, const Elements& elements, Put put_element) {
+  if (elements.empty()) return;
+  put(out, ",\n  \"{}\": [\n", key);
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    if (k > 0) put(out, ",\n");
+    put_element(elements[k]);
+  }
+  put(out, "\n  ]");
+}
+
 }  // namespace
 
 template <ExactField T>
 std::string write_model_json(const Model<T>& model) {
   Buffer out;
-  put(out, "{{\n  \"format\": \"patchproof-model\",\n  \"version\": 1,\n");
-  if (!model.units.empty()) put(out, "  \"units\": {},\n", quoted(model.units));
-  put(out, "  \"patches\": [\n");
-  for (std::size_t k = 0; k < model.patches.size(); ++k) {
-    if (k > 0) put(out, ",\n");
-    patch(out, model.patches[k]);
-  }
-  put(out, "\n  ]");
-  if (!model.joins.empty()) {
-    put(out, ",\n  \"joins\": [\n");
-    for (std::size_t k = 0; k < model.joins.size(); ++k) {
-      const DeclaredJoin& join = model.joins[k];
-      put(out,
-          "{}    {{\"a\": {{\"patch\": {}, \"edge\": \"{}\"}}, \"b\": {{\"patch\": {}, \"edge\": \"{}\"}}, "
-          "\"reversed\": {}}}",
-          k > 0 ? ",\n" : "", join.patch_a, to_string(join.edge_a), join.patch_b, to_string(join.edge_b),
-          join.reversed);
-    }
-    put(out, "\n  ]");
-  }
+  put(out, "{{\n  \"format\": \"patchproof-model\",\n  \"version\": 1");
+  if (!model.units.empty()) put(out, ",\n  \"units\": {}", quoted(model.units));
+  section(out, "curves", model.curves, [&](const ModelCurve<T>& c) { curve(out, c); });
+  section(out, "patches", model.patches, [&](const ModelPatch<T>& p) { patch(out, p); });
+  section(out, "joins", model.joins, [&](const DeclaredJoin& join) {
+    put(out,
+        "    {{\"a\": {{\"patch\": {}, \"edge\": \"{}\"}}, \"b\": {{\"patch\": {}, \"edge\": \"{}\"}}, "
+        "\"reversed\": {}}}",
+        join.patch_a, to_string(join.edge_a), join.patch_b, to_string(join.edge_b), join.reversed);
+  });
   put(out, "\n}}\n");
   return fmt::to_string(out);
 }

@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::visit(
         [](const auto& model) {
           using M = std::decay_t<decltype(model)>;
-          check(!model.patches.empty());
+          check(!model.patches.empty() || !model.curves.empty());
           const std::string text = write_model_json(model);
           const Result<ModelFile> back = read_model_text(text, "back.json");
           if (!back) {  // only fractions with more characters than a number may have are refused (io/write.h)

@@ -49,11 +49,16 @@ bool same(const Model<T>& a, const Model<T>& b) {
            p.surface.knots(Direction::u) == q.surface.knots(Direction::u) &&
            p.surface.knots(Direction::v) == q.surface.knots(Direction::v);
   };
+  const auto same_curve = [](const ModelCurve<T>& p, const ModelCurve<T>& q) {
+    return p.name == q.name && p.is_rational == q.is_rational && p.dimension == q.dimension &&
+           p.curve.points() == q.curve.points() && p.curve.knots() == q.curve.knots();
+  };
   const auto same_join = [](const DeclaredJoin& p, const DeclaredJoin& q) {
     return p.patch_a == q.patch_a && p.patch_b == q.patch_b && p.edge_a == q.edge_a && p.edge_b == q.edge_b &&
            p.reversed == q.reversed;
   };
   return a.units == b.units &&
+         std::equal(a.curves.begin(), a.curves.end(), b.curves.begin(), b.curves.end(), same_curve) &&
          std::equal(a.patches.begin(), a.patches.end(), b.patches.begin(), b.patches.end(), same_patch) &&
          std::equal(a.joins.begin(), a.joins.end(), b.joins.begin(), b.joins.end(), same_join);
 }
@@ -63,8 +68,9 @@ inline bool same_model(const AnyModel& a, const AnyModel& b) {
   if (a.index() != b.index()) return false;
   return a.index() == 0 ? same(std::get<0>(a), std::get<0>(b)) : same(std::get<1>(a), std::get<1>(b));
 }
-inline std::size_t patch_count(const AnyModel& model) {
-  return std::visit([](const auto& m) { return m.patches.size(); }, model);
+// Curves and patches.
+inline std::size_t spline_count(const AnyModel& model) {
+  return std::visit([](const auto& m) { return m.curves.size() + m.patches.size(); }, model);
 }
 
 // A model of one patch in our JSON; `more` is appended inside the patch.
@@ -74,6 +80,14 @@ inline std::string json_patch(const std::string& net, const std::string& more = 
          ",\n\"control_points\":" + net + more + "\n}\n]}";
 }
 inline const std::string kSquare = "[[[0,0,0],[0,1,0]],[[1,0,0],[1,1,0]]]";
+
+// A model of one curve in our JSON, in the plane unless `points` say otherwise.
+inline std::string json_curve(const std::string& points, const std::string& more = "",
+                              const std::string& degree = "2") {
+  return "{\"format\":\"patchproof-model\",\"version\":1,\n\"curves\":[\n{\"degree\":" + degree +
+         ",\n\"control_points\":" + points + more + "\n}\n]}";
+}
+inline const std::string kArc = "[[0,0],[1,1],[2,0]]";
 
 // One bilinear G+Smo patch, rational when weights are given.
 inline std::string gismo_patch(const std::string& coefficients, const std::string& weights = "",

@@ -64,7 +64,7 @@ TEST(Model, G2FirstParameterRunsFastestAndCoefficientsAreHomogeneous) {
   EXPECT_TRUE(patches[1].is_rational);
   EXPECT_EQ(patches[1].surface.point(1, 0), at("4", "0", "0", "2"));  // in the plane: z = 0; not multiplied again
   EXPECT_EQ(patches[2].surface.point(0, 1), at("0", "2", "0"));
-  EXPECT_EQ(file.notes, std::vector<std::string>{"1 curve skipped"});
+  EXPECT_TRUE(file.notes.empty());
 }
 
 TEST(Model, GismoWeightsAreMultipliedIn) {
@@ -77,7 +77,7 @@ TEST(Model, GismoWeightsAreMultipliedIn) {
   EXPECT_EQ(patches[0].surface.point(1, 1), at("2/3", "1/16", "0"));
   EXPECT_TRUE(patches[1].is_rational);
   EXPECT_EQ(patches[1].surface.point(1, 1), at("0.5", "0.5", "1", "0.5"));
-  EXPECT_EQ(file.notes.size(), 2u);
+  EXPECT_EQ(file.notes.size(), 1u);
   EXPECT_TRUE(rational_model(file).joins.empty());
 }
 
@@ -106,6 +106,69 @@ TEST(Model, JsonHoldsNamesUnitsKnotsAndJoins) {
   EXPECT_EQ(model.joins[0].edge_a, EdgeName::u_max);
   EXPECT_EQ(model.joins[0].edge_b, EdgeName::u_min);
   EXPECT_FALSE(model.joins[0].reversed);
+}
+
+TEST(Model, CurvesOfOurJson) {
+  const auto file = file_of("model/good_curves.json");
+  const auto& curves = rational_model(file).curves;
+  ASSERT_EQ(curves.size(), 5u);
+  EXPECT_EQ(curves[0].name, "Bézier");
+  EXPECT_EQ(curves[0].dimension, 2);
+  EXPECT_FALSE(curves[0].is_rational);
+  EXPECT_EQ(curves[0].curve.knots(), KnotVector<Rational>::bezier(2));
+  EXPECT_EQ(curves[0].curve.points()[1], at("1", "1/3", "0"));
+  // Knots beyond degree + 1 inside and at the end: the fourth and the last control point have no influence.
+  EXPECT_EQ(curves[1].dimension, 3);
+  EXPECT_EQ(evaluate(curves[1].curve, Rational(1), Side::left), at("1", "4", "0"));
+  EXPECT_EQ(evaluate(curves[1].curve, Rational(1), Side::right), at("1", "1", "0"));
+  EXPECT_EQ(evaluate(curves[1].curve, Rational(2)), at("5/2", "1", "0"));
+  // A control vector: the upper half circle.
+  EXPECT_EQ(curves[2].dimension, 2);
+  EXPECT_TRUE(curves[2].is_rational);
+  EXPECT_EQ(curves[2].curve.points()[1], at("0", "1", "0", "0"));
+  EXPECT_EQ(project(evaluate(curves[2].curve, exact("1/2"))), (Vec<Rational, 3>{{exact("0"), exact("1"), exact("0")}}));
+  EXPECT_EQ(curves[3].dimension, 3);
+  EXPECT_EQ(curves[3].curve.points()[2], at("0", "4", "10", "2"));
+  EXPECT_EQ(curves[4].curve.degree(), 0);
+  EXPECT_EQ(evaluate(curves[4].curve, Rational(1), Side::left), at("4", "5", "0"));
+  EXPECT_EQ(evaluate(curves[4].curve, Rational(1)), at("6", "7", "0"));
+}
+
+TEST(Model, CurvesOfOtherFormats) {
+  const auto g2 = file_of("g2/good_only_curves.g2");
+  ASSERT_EQ(rational_model(g2).curves.size(), 1u);
+  EXPECT_EQ(g2.notes, std::vector<std::string>{"1 curve of dimension 1 skipped"});
+  EXPECT_EQ(rational_model(g2).curves[0].dimension, 2);
+  EXPECT_EQ(rational_model(g2).curves[0].curve.points()[2], at("0", "2", "0", "2"));  // not multiplied again
+  const auto beside = file_of("g2/good_curve_and_surfaces.g2");
+  ASSERT_EQ(rational_model(beside).curves.size(), 1u);
+  EXPECT_EQ(rational_model(beside).curves[0].curve.points()[1], at("1", "0", "0"));
+
+  const auto gismo = file_of("gismo/good_curves.xml");
+  ASSERT_EQ(rational_model(gismo).curves.size(), 2u);
+  EXPECT_EQ(gismo.notes, std::vector<std::string>{"1 curve of dimension 1 skipped"});
+  EXPECT_EQ(rational_model(gismo).curves[0].name, "3");
+  EXPECT_EQ(rational_model(gismo).curves[0].curve.knots()[2], exact("1/3"));
+  EXPECT_EQ(rational_model(gismo).curves[0].curve.points()[2], at("1", "2/3", "0"));
+  EXPECT_EQ(rational_model(gismo).curves[1].curve.points()[1], at("0.5", "0.5", "0", "0.5"));  // multiplied
+
+  const auto geomdl = file_of("geomdl/good_curves.json");
+  ASSERT_EQ(rational_model(geomdl).curves.size(), 2u);
+  EXPECT_EQ(rational_model(geomdl).curves[0].dimension, 2);
+  EXPECT_EQ(rational_model(geomdl).curves[0].curve.points()[1], at("1", "0.3", "0"));
+  EXPECT_EQ(rational_model(geomdl).curves[1].name, "arc");
+  EXPECT_EQ(rational_model(geomdl).curves[1].curve.points()[1], at("0.7071", "0.7071", "1.4142", "0.7071"));
+}
+
+TEST(Model, ACurveWithARootIsReadOverItsField) {
+  const auto file = file_of("model/good_only_a_circle.json");
+  const auto& model = std::get<Model<Quadratic>>(file.model);
+  EXPECT_TRUE(model.patches.empty());
+  ASSERT_EQ(model.curves.size(), 1u);
+  for (int k = 0; k <= 4; ++k) {
+    const Vec<Quadratic, 4> p = evaluate(model.curves[0].curve, Quadratic(k) / Quadratic(4));
+    EXPECT_EQ(p[0] * p[0] + p[1] * p[1], p[3] * p[3]);
+  }
 }
 
 // Both patches lie exactly on the cylinder x² + y² = w², one by √2 and one by points at infinity.

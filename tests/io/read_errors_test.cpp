@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/bad_files.h"
 #include "io/io_support.h"
 #include "patchproof/io/read.h"
 
@@ -19,33 +20,19 @@ using test::gismo_patch;
 using test::json_patch;
 using test::kSquare;
 
-struct Bad {
-  std::string what, path, bytes;
-  ErrorCode code;
-  std::string where, values;
-};
-
-void expect_error(const Bad& bad, const Result<ModelFile>& file) {
-  SCOPED_TRACE(bad.what);
-  ASSERT_FALSE(file) << "was read";
-  const Error& error = file.error();
-  EXPECT_EQ(to_string(error.code), std::string(to_string(bad.code))) << error.text();
-  EXPECT_EQ(error.where, bad.where) << error.text();
-  EXPECT_EQ(error.values, bad.values) << error.text();
-  EXPECT_FALSE(error.message.empty());
-}
-
-void expect_errors(const std::vector<Bad>& all) {
-  for (const Bad& bad : all) expect_error(bad, read_model_text(bad.bytes, bad.path));
-}
+using test::Bad;
+using test::expect_error;
+using test::expect_errors;
 
 std::string bpt(const std::string& last) { return "1 # one patch\n1 1\n0 0 0\n0 1 0\n1 0 0\n" + last; }
 std::string g2(const std::string& u_knots, const std::string& last = "1 1 0",
                const std::string& head = "200 1 0 0\n3 0\n2 2\n") {
   return head + u_knots + "\n2 2\n0 0 1 1\n0 0 0\n1 0 0\n0 1 0\n" + last + "\n";
 }
-std::string geomdl(const std::string& more, const std::string& knots_u = "[0,0,1,1]") {
-  return "{\"shape\":{\"type\":\"surface\",\"data\":[{\"degree_u\":1,\"degree_v\":1,\n\"knotvector_u\":" + knots_u +
+std::string geomdl(const std::string& more, const std::string& knots_u = "[0,0,1,1]",
+                   const std::string& type = "surface") {
+  return "{\"shape\":{\"type\":\"" + type +
+         "\",\"data\":[{\"degree_u\":1,\"degree_v\":1,\n\"knotvector_u\":" + knots_u +
          ",\n\"knotvector_v\":[0,0,1,1],\"size_u\":2,\"size_v\":2,\n" + more + "}]}}";
 }
 const std::string kPoints = "\"points\":[[0,0,0],[0,1,0],[1,0,0],[1,1,0]]";
@@ -131,8 +118,13 @@ TEST(ReadErrors, G2) {
       {"huge counts", "m.g2", "200 1 0 0\n3 0\n1000000000 4\n0 0 0 0 1 1\n", ErrorCode::syntax, "m.g2:4", ""},
       {"dimension 4", "m.g2", "200 1 0 0\n4 0\n", ErrorCode::unsupported, "m.g2:2", "4"},
       {"volume", "m.g2", "700 1 0 0\n3 0\n", ErrorCode::unsupported, "m.g2:1", "700"},
-      {"only a curve", "m.g2", "100 1 0 0\n3 0\n2 2\n0 0 1 1\n0 0 0\n1 1 1\n", ErrorCode::unsupported, "m.g2:6",
-       "1 curves"},
+      {"only a curve of dimension 1", "m.g2", "100 1 0 0\n1 0\n2 2\n0 0 1 1\n0\n1\n", ErrorCode::unsupported, "m.g2:6",
+       ""},
+      {"a curve with decreasing knots", "m.g2", "100 1 0 0\n3 0\n2 2\n0 1 0 1\n0 0 0\n1 1 1\n",
+       ErrorCode::decreasing_knots, "m.g2:4", "0 after 1"},
+      {"a curve of order 0", "m.g2", "100 1 0 0\n3 0\n2 0\n0 1\n", ErrorCode::bad_degree, "m.g2:3", "0"},
+      {"a curve with a pole", "m.g2", "100 1 0 0\n2 1\n2 2\n0 0 1 1\n0 0 1\n1 1 -2\n", ErrorCode::vanishing_weight,
+       "m.g2:1", "t = 1/3"},
       {"curve with a bad number", "m.g2", "100 1 0 0\n3 0\n2 2\n0 0 1 1\n0 0 0\n1 1 x\n", ErrorCode::bad_number,
        "m.g2:6", "x"},
       {"vanishing denominator", "m.g2", rational, ErrorCode::vanishing_weight, "m.g2:1", "u in [0, 1], v in [0, 1]"},
@@ -287,8 +279,16 @@ TEST(ReadErrors, Geomdl) {
        "m.json:5 at /shape/data/0", "points of 3 numbers"},
       {"trimmed", "m.json", geomdl("\"rational\":false,\"trims\":{\"count\":1},\n" + net), ErrorCode::unsupported,
        "m.json:4 at /shape/data/0/trims", ""},
-      {"curve", "m.json", "{\"shape\":{\"type\":\"curve\"}}", ErrorCode::unsupported, "m.json:1 at /shape/type",
-       "curve"},
+      {"volume", "m.json", "{\"shape\":{\"type\":\"volume\"}}", ErrorCode::unsupported, "m.json:1 at /shape/type",
+       "volume"},
+      {"a surface that lacks a size", "m.json",
+       "{\"shape\":{\"type\":\"surface\",\"data\":[{\"rational\":false,\"degree_u\":1,\"degree_v\":1,\"knotvector_u\":["
+       "],"
+       "\"knotvector_v\":[],\"size_u\":2," +
+           net + "}]}}",
+       ErrorCode::syntax, "m.json:1 at /shape/data/0", ""},
+      {"a surface among curves", "m.json", geomdl("\"rational\":false," + net, "[0,0,1,1]", "curve"), ErrorCode::syntax,
+       "m.json:4 at /shape", "curve"},
       {"no surfaces", "m.json", "{\"shape\":{\"type\":\"surface\",\"data\":[]}}", ErrorCode::wrong_count,
        "m.json:1 at /shape", ""},
       {"bad point", "m.json",

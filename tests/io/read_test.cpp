@@ -99,7 +99,7 @@ TEST(Read, Law2_TruncationNeverGivesAPart) {
   for (const auto& entry : test::good_files()) {
     SCOPED_TRACE(entry.string());
     const std::string bytes = test::bytes_of(entry);
-    const std::size_t all = test::patch_count(read_good(bytes, entry.string()).model);
+    const std::size_t all = test::spline_count(read_good(bytes, entry.string()).model);
     const std::string extension = entry.extension().string();
     const std::size_t complete = bytes.find_last_not_of(" \t\r\n") + 1;
     for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -110,7 +110,7 @@ TEST(Read, Law2_TruncationNeverGivesAPart) {
         continue;
       }
       // .g2 announces no number of objects, so a cut between two objects cannot be noticed.
-      EXPECT_TRUE(extension == ".g2" || test::patch_count(cut->model) == all) << "cut at " << size;
+      EXPECT_TRUE(extension == ".g2" || test::spline_count(cut->model) == all) << "cut at " << size;
       EXPECT_TRUE((extension != ".json" && extension != ".xml") || size >= complete) << "cut at " << size;
     }
   }

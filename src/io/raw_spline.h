@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every reader produces, one patch at a time: the texts of its numbers, as views into the file, and where they stand.
+// What every reader produces, one curve or patch at a time: the texts of its numbers, as views into the file, and where
+// they stand.
 // The step from texts to exact numbers is shared (model_builder.h), so no reader knows a number type.
 #pragma once
 
@@ -22,42 +23,54 @@ enum class Weights {
   homogeneous,  // last number of every point; the coordinates are already multiplied by it
 };
 
-// How a JSON pointer to a number of the patch is spelt.
+// How a JSON pointer to a number is spelt.
 enum class JsonLayout { none, model, geomdl };
 
-struct RawPatch {
+// A curve (one direction) or a patch (two: u and v).
+struct RawSpline {
+  int directions = 2;
   std::string name;
   std::array<long, 2> degree{};
   bool has_knots = false;  // false: Bézier knots on [0, 1]
   std::array<std::vector<std::string_view>, 2> knots;
-  std::array<long, 2> count{};  // control points along u and v
+  std::array<long, 2> count{};  // control points along u and v; of a curve, count[0]
   int per_point = 3;            // numbers per point: 2 or 3, and one more when homogeneous
   Weights weight_form = Weights::none;
   bool u_fastest = false;  // the order of the points in the file
   std::vector<std::string_view> coordinates, weights;
 
-  std::string_view at;  // where the patch begins
+  std::string_view at;  // where it begins
   JsonLayout layout = JsonLayout::none;
-  std::string pointer;  // of the patch, JSON only
+  std::string pointer;  // of the whole, JSON only
 
+  bool is_curve() const { return directions == 1; }
   int dimension() const { return per_point - (weight_form == Weights::homogeneous ? 1 : 0); }
-  // JSON pointers to one number (empty in text formats). Points are numbered in the order of the file.
+  // " along u" in messages; a curve has but one direction, "".
+  std::string_view along(int direction) const;
+  // JSON pointers (empty in text formats), to a member and to one number. Points are numbered in the order of the file.
+  std::string degree_pointer(int direction) const;
+  std::string knots_pointer(int direction) const;
   std::string knot_pointer(int direction, std::size_t k) const;
+  std::string points_pointer() const;
   std::string coordinate_pointer(std::size_t point, int component) const;
-  std::string weight_pointer(std::size_t point) const;
-  std::string member_pointer(std::string_view member) const;
   std::string weights_pointer() const;
+  std::string weight_pointer(std::size_t point) const;
+
+ private:
+  std::string member_pointer(std::string_view member) const;
+  std::string element_pointer(std::string_view array, std::size_t point) const;
 };
 
 // Where readers deliver. The first error ends the reading.
 class ModelSink {
  public:
   virtual ~ModelSink() = default;
-  virtual std::optional<Error> add(const RawPatch& patch) = 0;
-  // The first text among the patch's numbers that is none: what a reader asks when a file ends inside a patch, because two
+  virtual std::optional<Error> add(const RawSpline& spline) = 0;
+  // The first text among the numbers that is none: what a reader asks when a file ends inside a spline, because two
   // numbers run together make a file seem too short.
-  virtual std::optional<Error> first_bad_number(const RawPatch& patch) = 0;
+  virtual std::optional<Error> first_bad_number(const RawSpline& spline) = 0;
   virtual std::size_t patch_count() const = 0;
+  virtual std::size_t curve_count() const = 0;
 
   std::vector<DeclaredJoin> joins;
   std::string units;
