@@ -2,6 +2,8 @@
 #include "patchproof/patch/affine.h"
 
 #include "patchproof/patch/rational_patch.h"
+#include "patchproof/spline/bezier_extraction.h"
+#include "support/curves.h"
 #include "support/patches.h"
 
 namespace patchproof {
@@ -110,6 +112,54 @@ TEST(Affine, Law5_ProjectiveMapsCommuteWithEvaluation) {
   EXPECT_TRUE(evaluate(apply(map, s), u, v) == apply(map, evaluate(s, u, v)));
   const auto affine = some_map<Rational>();
   EXPECT_EQ(apply(to_projective(affine), s).net(), apply(affine, s).net());
+}
+
+template <std::size_t N>
+BsplineCurve<Rational, N> with_random_points(RandomRationals& random, const KnotVector<Rational>& knots) {
+  return {knots, random.points<N>(knots.control_count())};
+}
+
+// Both sides as Bézier points of every piece.
+template <class Map, std::size_t N>
+void expect_commutes(const Map& map, const BsplineCurve<Rational, N>& curve) {
+  const auto image = extract_bezier(apply(map, curve)), pieces = extract_bezier(curve);
+  ASSERT_EQ(image.size(), pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (std::size_t j = 0; j < pieces[i].points.size(); ++j)
+      EXPECT_TRUE(image[i].points[j] == apply(map, pieces[i].points[j]));
+}
+
+TEST(Affine, Law6_CurvesOfMappedPointsAreMappedCurves) {
+  RandomRationals random;
+  for (const NamedCurve& named : awkward_curves(random)) {
+    SCOPED_TRACE(named.name);
+    expect_commutes(some_map<Rational>(), with_random_points<3>(random, named.curve.knots()));
+    expect_commutes(some_map<Rational>(), with_random_points<4>(random, named.curve.knots()));
+    ProjectiveMap<Rational> m;
+    for (auto& row : m.rows) row = random.point<4>();
+    expect_commutes(m, with_random_points<4>(random, named.curve.knots()));
+    const auto curve = with_random_points<4>(random, named.curve.knots());
+    EXPECT_TRUE(apply(to_projective(some_map<Rational>()), curve).points() ==
+                apply(some_map<Rational>(), curve).points());
+  }
+}
+
+// (x, y, z, w) ↦ (x, y, z, w + x) on a quarter circle: its image passes (3/8, 1/2), and weights change.
+TEST(Affine, Erratum_E_LAR_10_AProjectiveMapMustChangeTheWeights) {
+  const auto n = [](int p, int q = 1) { return Rational(p) / Rational(q); };
+  const auto quarter = BsplineCurve<Rational, 4>::bezier(
+      {{{n(1), n(0), n(0), n(1)}}, {{n(1), n(1), n(0), n(1)}}, {{n(0), n(2), n(0), n(2)}}});
+  ProjectiveMap<Rational> map = to_projective(translation(Vec<Rational, 3>{}));
+  map.rows[3][0] = n(1);
+  const Rational t = n(1, 2);
+  const Vec<Rational, 3> truth{{n(3, 8), n(1, 2), n(0)}};
+  EXPECT_EQ(evaluate_rational(apply(map, quarter), t), truth);
+  EXPECT_EQ(project(apply(map, evaluate(quarter, t))), truth);
+  // As printed: the projected control points are mapped, each with the weight it had.
+  std::vector<Vec<Rational, 4>> kept;
+  for (const auto& p : quarter.points()) kept.push_back(to_homogeneous(project(apply(map, p)), p[3]));
+  EXPECT_EQ(evaluate_rational(BsplineCurve<Rational, 4>::bezier(kept), t),
+            (Vec<Rational, 3>{{n(3, 10), n(3, 5), n(0)}}));
 }
 
 }  // namespace

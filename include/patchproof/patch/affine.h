@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Affine and projective maps of space, applied to points, directions, homogeneous points and whole patches.
+// Affine and projective maps of space, applied to points, directions, homogeneous points and whole patches and curves.
 //
 //   affine      x ↦ A·x + b          on a homogeneous point (w·x, w):  (A·(w·x) + w·b, w)
-//   projective  (w·x, w) ↦ M·(w·x, w) with a 4 × 4 matrix M
+//   projective  (w·x, w) ↦ M·(w·x, w) with a 4 × 4 matrix M; it changes weights, so it acts on homogeneous points only:
+//               mapping the affine control points and keeping the weights gives another curve
 //   rotation by the quaternion q = s + x·i + y·j + z·k:  p ↦ q·p·q⁻¹, rational in s, x, y, z: every rational quaternion
 //   gives a rational rotation, and these lie dense among all rotations. About an axis a by the angle 2·arctan(h·|a|):
 //   q = 1 + h·a (for a unit axis the cosine is (1−h²)/(1+h²) and the sine 2h/(1+h²), a Pythagorean triple).
@@ -11,17 +12,21 @@
 //          (2) compose(f, g) applied to p == f applied to (g applied to p);
 //          (3) a rotation preserves dot and cross products, and leaves its axis fixed;
 //          (4) transforming normals: cross(A·a, A·b) == apply_to_normal(map, cross(a, b));
-//          (5) a projective map commutes with evaluation of homogeneous patches: S(M·P) == M·S(P).
+//          (5) a projective map commutes with evaluation of homogeneous patches: S(M·P) == M·S(P);
+//          (6) curves: (1) and (5) hold for every polynomial piece, identically.
 // SCALARS  T: Ring; rotations T: Field. Exact when T is.
 // COST     linear in the control points.
-// TEST     tests/patch/affine_test.cpp checks (1)–(5).
+// TEST     tests/patch/affine_test.cpp checks (1)–(6).
 #pragma once
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "patchproof/contract.h"
 #include "patchproof/patch/bspline_patch.h"
 #include "patchproof/scalar/concepts.h"
+#include "patchproof/spline/curve.h"
 #include "patchproof/vec.h"
 
 namespace patchproof {
@@ -90,6 +95,12 @@ template <Ring T, std::size_t N, OrderedField K>
 BsplinePatch<T, N, K> apply(const AffineMap<T>& map, const BsplinePatch<T, N, K>& patch);
 template <Ring T, OrderedField K>
 BsplinePatch<T, 4, K> apply(const ProjectiveMap<T>& map, const BsplinePatch<T, 4, K>& patch);
+
+// The curve of mapped control points. N = 3: points; N = 4: homogeneous points.
+template <Ring T, std::size_t N, OrderedField K>
+BsplineCurve<T, N, K> apply(const AffineMap<T>& map, const BsplineCurve<T, N, K>& curve);
+template <Ring T, OrderedField K>
+BsplineCurve<T, 4, K> apply(const ProjectiveMap<T>& map, const BsplineCurve<T, 4, K>& curve);
 
 // ---------------------------------------------------------------------------------------------------------------------
 
@@ -195,6 +206,21 @@ BsplinePatch<T, N, K> apply(const AffineMap<T>& map, const BsplinePatch<T, N, K>
 template <Ring T, OrderedField K>
 BsplinePatch<T, 4, K> apply(const ProjectiveMap<T>& map, const BsplinePatch<T, 4, K>& patch) {
   return map_points(patch, [&](const Vec<T, 4>& p) { return apply(map, p); });
+}
+
+template <Ring T, std::size_t N, OrderedField K>
+BsplineCurve<T, N, K> apply(const AffineMap<T>& map, const BsplineCurve<T, N, K>& curve) {
+  static_assert(N == 3 || N == 4, "affine maps act on points or on homogeneous points of space");
+  std::vector<Vec<T, N>> points;
+  for (const Vec<T, N>& p : curve.points()) points.push_back(apply(map, p));
+  return {curve.knots(), std::move(points)};
+}
+
+template <Ring T, OrderedField K>
+BsplineCurve<T, 4, K> apply(const ProjectiveMap<T>& map, const BsplineCurve<T, 4, K>& curve) {
+  std::vector<Vec<T, 4>> points;
+  for (const Vec<T, 4>& p : curve.points()) points.push_back(apply(map, p));
+  return {curve.knots(), std::move(points)};
 }
 
 }  // namespace patchproof
