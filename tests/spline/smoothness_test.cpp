@@ -297,6 +297,9 @@ TEST(Smoothness, Contracts) {
                   {{{q(0), q(0), q(1)}}, {{q(1), q(1), q(0)}}, {{q(1), q(0), q(1)}}});
   EXPECT_THROW(smoothness_rational(bad), contract_error);
   EXPECT_NO_THROW(smoothness(bad));
+  EXPECT_TRUE(smoothness_at_rational(bad, q(1, 2)).is_one_function());
+  EXPECT_THROW(smoothness_at(bad, q(0)), contract_error);
+  EXPECT_THROW(smoothness_at_rational(bad, q(2)), contract_error);
   EXPECT_EQ(smoothness(lar_curve("deg0"))[0].actual.order, -1);
   EXPECT_EQ(smoothness(plane_curve(0, "0 1 2", "3 3  3 3"))[0].nominal, -1);
   EXPECT_TRUE(smoothness(plane_curve(0, "0 1 2", "3 3  3 3"))[0].actual.is_one_function());

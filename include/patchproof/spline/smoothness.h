@@ -69,6 +69,12 @@ std::vector<BreakSmoothness<T, N, K>> smoothness(const BsplineCurve<T, N, K>& cu
 template <ExactField T, std::size_t M, OrderedField K>
 requires(M >= 2) std::vector<BreakSmoothness<T, M - 1, K>> smoothness_rational(const BsplineCurve<T, M, K>& curve);
 
+// At one parameter, a break or not. REQUIRES domain_begin < t < domain_end.
+template <ExactField T, std::size_t N, OrderedField K>
+Smoothness<T, N> smoothness_at(const BsplineCurve<T, N, K>& curve, const K& t);
+template <ExactField T, std::size_t M, OrderedField K>
+requires(M >= 2) Smoothness<T, M - 1> smoothness_at_rational(const BsplineCurve<T, M, K>& curve, const K& t);
+
 // From the end of the domain to its begin. The curve is closed when the order is not −1.
 template <ExactField T, std::size_t N, OrderedField K>
 Smoothness<T, N> closing_smoothness(const BsplineCurve<T, N, K>& curve);
@@ -170,17 +176,22 @@ Smoothness<T, N> meet(const TaylorQuotient<T, N>& left, const TaylorQuotient<T, 
   return out;
 }
 
-// Runs meet_at(t, t) for each inner break.
-template <ExactField T, std::size_t N, OrderedField K, class MeetAt>
-std::vector<BreakSmoothness<T, N, K>> smoothness_at_breaks(const KnotVector<K>& knots, MeetAt meet_at) {
+// Runs at(t) for each inner break.
+template <ExactField T, std::size_t N, OrderedField K, class At>
+std::vector<BreakSmoothness<T, N, K>> smoothness_at_breaks(const KnotVector<K>& knots, At at) {
   std::vector<BreakSmoothness<T, N, K>> out;
   const std::vector<K> breaks = knots.breaks();
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
     const int multiplicity = knots.multiplicity(breaks[i]);
-    out.push_back(
-        {breaks[i], multiplicity, std::max(-1, knots.degree() - multiplicity), meet_at(breaks[i], breaks[i])});
+    out.push_back({breaks[i], multiplicity, std::max(-1, knots.degree() - multiplicity), at(breaks[i])});
   }
   return out;
+}
+
+template <OrderedField K>
+void require_inside(const KnotVector<K>& knots, const K& t) {
+  PATCHPROOF_REQUIRES(knots.domain_begin() < t && t < knots.domain_end(),
+                      "smoothness_at: the parameter lies inside the domain");
 }
 
 // The curve coming in at `from` and leaving at `to`.
@@ -196,15 +207,26 @@ Smoothness<T, M - 1> meet_rational(const BsplineCurve<T, M, K>& curve, const K& 
 }  // namespace detail
 
 template <ExactField T, std::size_t N, OrderedField K>
+Smoothness<T, N> smoothness_at(const BsplineCurve<T, N, K>& curve, const K& t) {
+  detail::require_inside(curve.knots(), t);
+  return detail::meet_polynomial(curve, t, t);
+}
+
+template <ExactField T, std::size_t M, OrderedField K>
+requires(M >= 2) Smoothness<T, M - 1> smoothness_at_rational(const BsplineCurve<T, M, K>& curve, const K& t) {
+  detail::require_inside(curve.knots(), t);
+  return detail::meet_rational(curve, t, t);
+}
+
+template <ExactField T, std::size_t N, OrderedField K>
 std::vector<BreakSmoothness<T, N, K>> smoothness(const BsplineCurve<T, N, K>& curve) {
-  return detail::smoothness_at_breaks<T, N, K>(
-      curve.knots(), [&](const K& from, const K& to) { return detail::meet_polynomial(curve, from, to); });
+  return detail::smoothness_at_breaks<T, N, K>(curve.knots(), [&](const K& t) { return smoothness_at(curve, t); });
 }
 
 template <ExactField T, std::size_t M, OrderedField K>
 requires(M >= 2) std::vector<BreakSmoothness<T, M - 1, K>> smoothness_rational(const BsplineCurve<T, M, K>& curve) {
-  return detail::smoothness_at_breaks<T, M - 1, K>(
-      curve.knots(), [&](const K& from, const K& to) { return detail::meet_rational(curve, from, to); });
+  return detail::smoothness_at_breaks<T, M - 1, K>(curve.knots(),
+                                                   [&](const K& t) { return smoothness_at_rational(curve, t); });
 }
 
 template <ExactField T, std::size_t N, OrderedField K>
