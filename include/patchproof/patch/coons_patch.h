@@ -262,7 +262,12 @@ Result<TransfiniteMap<T, 2, M, K>> rational_coons_patch(const FourSides<T, M, K>
           }))
     return *error;
   const Function one(Vec<T, 1>{{T(1)}});
-  const auto weight = [](const Homogeneous& side) { return component(side, N); };
+  // The weight along a side; as a constant where it is one, which keeps the degree low.
+  const auto weight = [](const Homogeneous& side) {
+    const Function w = component(side, N);
+    const Function constant = evaluate(w, ParameterPlace<K, 2>({side.domain_begin(0), side.domain_begin(1)}));
+    return identical(w, constant) ? constant : w;
+  };
   const auto numerator = [](const Homogeneous& side) {
     return linear_image(side, [](const Vec<T, M>& p) {
       Vec<T, N> a;

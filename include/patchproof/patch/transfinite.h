@@ -32,6 +32,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -162,7 +163,8 @@ TransfiniteMap<T, D, N, K> patch_over(std::size_t s, std::size_t t, const Bsplin
 
 // x_s itself, on [begin, end].
 template <Ring T, std::size_t D, OrderedField K = knot_scalar_t<T>>
-TransfiniteMap<T, D, 1, K> coordinate_function(std::size_t s, const K& begin = K(0), const K& end = K(1)) {
+TransfiniteMap<T, D, 1, K> coordinate_function(std::size_t s, const std::type_identity_t<K>& begin = K(0),
+                                               const std::type_identity_t<K>& end = K(1)) {
   return *TransfiniteMap<T, D, 1, K>::bezier(s, {Vec<T, 1>{{embed<T>(begin)}}, Vec<T, 1>{{embed<T>(end)}}}, begin, end);
 }
 
