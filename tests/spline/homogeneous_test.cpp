@@ -129,5 +129,44 @@ TEST(HomogeneousExact, PointsAtInfinityAreRefusedInEveryScalar) {
   EXPECT_THROW(evaluate_rational(make_curve<Interval>(pole), q(1, 2)), contract_error);
 }
 
+// R_4, R_5, R_6 of the nine-point circle at 9/4: 45/41 − 27√2/82, −9/41 + 15√2/41, 5/41 − 3√2/82.
+TEST(HomogeneousExact, Law5_TheRationalBasisOfTheNinePointCircle) {
+  std::vector<Quadratic> knots, weights;
+  for (const int k : {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}) knots.push_back(Quadratic(k));
+  for (int i = 0; i < 9; ++i) weights.push_back(i % 2 == 0 ? Quadratic(1) : Quadratic(q(0), q(1, 2), 2));
+  const auto circle = KnotVector<Quadratic>::make(2, knots).value();
+  const auto r = rational_basis(circle, weights, Quadratic(q(9, 4)));
+  EXPECT_TRUE(r[4] == Quadratic(q(45, 41), q(-27, 82), 2));
+  EXPECT_TRUE(r[5] == Quadratic(q(-9, 41), q(15, 41), 2));
+  EXPECT_TRUE(r[6] == Quadratic(q(5, 41), q(-3, 82), 2));
+  for (const int i : {0, 1, 2, 3, 7, 8}) EXPECT_TRUE(r[i] == Quadratic(0));
+}
+
+TEST(HomogeneousExact, Law5_TheRationalBasisGivesTheCurve) {
+  RandomRationals random;
+  for (int round = 0; round < 20; ++round) {
+    const int degree = random.integer(0, 3), n = degree + 1 + random.integer(0, 4);
+    const auto knots = KnotVector<Rational>::make(degree, random.knots(degree, n)).value();
+    const auto points = random.points<2>(n);
+    Numbers weights = random.numbers(n);
+    for (Rational& w : weights) w = 1 + w * w;
+    const Rational t = knots.domain_begin() + (knots.domain_end() - knots.domain_begin()) * random.unit();
+    for (const Side side : {Side::left, Side::right}) {
+      const Numbers r = rational_basis(knots, weights, t, side);
+      Rational sum(0);
+      Point point{};
+      for (int i = 0; i < n; ++i) {
+        sum += r[i];
+        point += r[i] * points[i];
+      }
+      EXPECT_EQ(sum, 1);
+      EXPECT_EQ(point, evaluate_rational(Conic(knots, to_homogeneous(points, weights)), t, side));
+    }
+  }
+  const auto line = KnotVector<Rational>::bezier(1);
+  EXPECT_THROW(rational_basis(line, {q(1), q(-1)}, q(1, 2)), contract_error);  // a pole
+  EXPECT_THROW(rational_basis(line, {q(1)}, q(1, 2)), contract_error);
+}
+
 }  // namespace
 }  // namespace patchproof::test

@@ -10,7 +10,8 @@
 // REQUIRES  project, rational_derivatives: the weight is not certainly zero.
 // ENSURES   (1) project(to_homogeneous(p, w)) = p;  (2) project(λ h) = project(h) for λ ≠ 0;
 //           (3) rational_derivatives gives the derivatives of the quotient A/W, of every order;
-//           (4) with all weights equal to 1 they are those of the polynomial curve.
+//           (4) with all weights equal to 1 they are those of the polynomial curve;
+//           (5) the rational basis sums to 1, and Σ p_i R_i is the affine point of the curve with points p_i.
 // SCALARS   T: Field. An enclosure of W that contains 0 without being 0 gives the enclosure "anything", never a point.
 // ERRORS    none here; readers certify the denominator first (patch/denominator.h).
 // COST      order² combinations of points.
@@ -68,6 +69,13 @@ std::vector<Vec<T, M - 1>> rational_derivatives(const BsplineCurve<T, M, K>& cur
   return rational_derivatives(derivatives(curve, t, order, side));
 }
 
+// R_i(t) = w_i N_i(t) / Σ_j w_j N_j(t) for all i, as limits from `side`. A weight 0 gives the function 0 (its control
+// vector has no place in a sum of affine points). REQUIRES t in the domain, one weight for each function, Σ w_j N_j not
+// certainly zero.
+template <Field T, OrderedField K>
+std::vector<T> rational_basis(const KnotVector<K>& knots, const std::vector<T>& weights, const K& t,
+                              Side side = Side::right);
+
 // ---------------------------------------------------------------------------------------------------------------------
 
 namespace detail {
@@ -97,6 +105,20 @@ requires(M >= 2) std::vector<Vec<T, M - 1>> rational_derivatives(const std::vect
     for (std::size_t c = 0; c + 1 < M; ++c) a[c] = a[c] / weight;
     out.push_back(a);
   }
+  return out;
+}
+
+template <Field T, OrderedField K>
+std::vector<T> rational_basis(const KnotVector<K>& knots, const std::vector<T>& weights, const K& t, Side side) {
+  PATCHPROOF_REQUIRES(static_cast<int>(weights.size()) == knots.control_count(),
+                      "rational_basis: one weight for each function");
+  const int span = knots.find_span(t, side), first = span - knots.degree();
+  const std::vector<T> live = basis_in_span<T>(knots, span, t);
+  std::vector<T> out(weights.size(), T(0));
+  T denominator(0);
+  for (std::size_t l = 0; l < live.size(); ++l) denominator += out[first + l] = weights[first + l] * live[l];
+  PATCHPROOF_REQUIRES(!detail::is_certainly_zero(denominator), "rational_basis: the denominator is zero here");
+  for (std::size_t l = 0; l < live.size(); ++l) out[first + l] = out[first + l] / denominator;
   return out;
 }
 
