@@ -164,8 +164,8 @@ TEST(HomogeneousExact, Law5_TheRationalBasisGivesTheCurve) {
     }
   }
   const auto line = KnotVector<Rational>::bezier(1);
-  EXPECT_THROW(rational_basis(line, {q(1), q(-1)}, q(1, 2)), contract_error);  // a pole
-  EXPECT_THROW(rational_basis(line, {q(1)}, q(1, 2)), contract_error);
+  EXPECT_THROW(rational_basis(line, Numbers{q(1), q(-1)}, q(1, 2)), contract_error);  // a pole
+  EXPECT_THROW(rational_basis(line, Numbers{q(1)}, q(1, 2)), contract_error);
 }
 
 }  // namespace
