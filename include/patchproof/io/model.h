@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model: a set of patches and curves as read from a file, exact, plus the joins that the file declares (if any).
+// A model: a set of patches, curves and solids as read from a file, exact, plus the joins that the file declares (if any).
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "patchproof/patch/boundary.h"
 #include "patchproof/patch/bspline_patch.h"
+#include "patchproof/patch/transfinite.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/scalar/quadratic.h"
 #include "patchproof/scalar/rational.h"
@@ -36,6 +37,13 @@ struct ModelCurve {
   int dimension = 3;  // 2: the file gives x and y only, and z = 0
 };
 
+// A solid over a box of (u, v, w), mapped to homogeneous points (w·x, w·y, w·z, w).
+template <ExactField T>
+struct ModelSolid {
+  std::string name;
+  TransfiniteMap<T, 3, 4> map;
+};
+
 // A join that the file declares: the first edge, the second edge, and whether their directions are opposite.
 struct DeclaredJoin {
   int patch_a, patch_b;  // 0-based
@@ -47,6 +55,7 @@ template <ExactField T>
 struct Model {
   std::vector<ModelPatch<T>> patches;
   std::vector<ModelCurve<T>> curves;
+  std::vector<ModelSolid<T>> solids;
   std::vector<DeclaredJoin> joins;  // empty: joins are found from the geometry
   std::string units;                // "" when the file names none
 };
