@@ -100,6 +100,21 @@ Ball atan(const Ball& a) {
   mpfi_atan(r.x_, a.x_);
   return r;
 }
+Ball exp(const Ball& a) {
+  Ball r;
+  mpfi_exp(r.x_, a.x_);
+  return r;
+}
+Ball sin(const Ball& a) {
+  Ball r;
+  mpfi_sin(r.x_, a.x_);
+  return r;
+}
+Ball cos(const Ball& a) {
+  Ball r;
+  mpfi_cos(r.x_, a.x_);
+  return r;
+}
 Ball Ball::pi() {
   Ball r;
   mpfi_const_pi(r.x_);

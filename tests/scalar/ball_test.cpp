@@ -88,6 +88,10 @@ TEST(BallLaws, Law1_RootsAndArcs) {
   // Machin: π/4 = 4·atan(1/5) − atan(1/239).
   const auto atan_of = [](int n) { return atan(Ball(Rational(1) / Rational(n))); };
   expect_digits(Ball(16) * atan_of(5) - Ball(4) * atan_of(239), pi, 110);
+  expect_digits(exp(Ball(1)), "2.71828182845904523536028747135266249775724709369996", 120);
+  expect_digits(sin(Ball(1)), "0.84147098480789650665250232163029899962256306079837", 120);
+  expect_digits(cos(Ball(1)), "0.54030230586813971740093660744297660373231042061792", 120);
+  EXPECT_TRUE(sin(Ball(Interval(1, 2))).contains(Rational(1))) << "the summit lies inside";
   EXPECT_TRUE(sqrt(Ball(Interval(-1, 4))).contains(Rational(0))) << "the negative part is cut off";
   EXPECT_TRUE(sqrt(Ball(Interval(-1, 4))).contains(Rational(2)));
   EXPECT_EQ(sqrt(Ball(0)).sign(), Sign::zero);

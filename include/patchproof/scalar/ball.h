@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ball: an enclosure [lower, upper] by MPFR numbers of a chosen precision, with sqrt, trigonometry and π.
+// Ball: an enclosure [lower, upper] by MPFR numbers of a chosen precision, with sqrt, exp, trigonometry and π.
 //
 // Used where a square root or an angle leaves the rationals (reports in degrees, signs over Q(√d)), and for enclosures
 // that doubles are too coarse for.
@@ -51,6 +51,9 @@ class Ball {
 
   friend Ball sqrt(const Ball& a);  // REQUIRES a ≥ 0 somewhere; the negative part is cut off
   friend Ball atan(const Ball& a);
+  friend Ball exp(const Ball& a);
+  friend Ball sin(const Ball& a);
+  friend Ball cos(const Ball& a);
   static Ball pi();
 
   // The enclosure, rounded outward to doubles.
