@@ -5,27 +5,15 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/describe_model.h"
 #include "patchproof/io/read.h"
 #include "patchproof/io/write.h"
 
 namespace patchproof::cli {
 namespace {
 
-template <ExactField T>
-std::string describe(const Model<T>& model) {
-  std::string text;
-  for (std::size_t i = 0; i < model.patches.size(); ++i) {
-    const ModelPatch<T>& p = model.patches[i];
-    const auto direction = [&](Direction d) {
-      const KnotVector<T>& k = p.surface.knots(d);
-      return fmt::format("degree {}, {} points, domain [{}, {}], {} spans", k.degree(), k.control_count(),
-                         to_text(k.domain_begin()), to_text(k.domain_end()), k.breaks().size() - 1);
-    };
-    text += fmt::format("patch {}{}{}\n  u: {}\n  v: {}\n", i, p.name.empty() ? "" : " " + p.name,
-                        p.is_rational ? ", rational" : "", direction(Direction::u), direction(Direction::v));
-  }
-  if (!model.joins.empty()) text += fmt::format("{} joins declared in the file\n", model.joins.size());
-  return text;
+std::string plural(std::size_t count, const char* one, const char* more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
 int run_info(const std::string& path, Decimals decimals) {
@@ -34,7 +22,8 @@ int run_info(const std::string& path, Decimals decimals) {
   std::string text = fmt::format("{}: {}, sha256 {}\n", file->path, file->format, file->sha256);
   std::visit(
       [&](const auto& model) {
-        text += fmt::format("{} patches{}, numbers in {}\n", model.patches.size(),
+        text += fmt::format("{}, {}{}, numbers in {}\n", plural(model.patches.size(), "patch", "patches"),
+                            plural(model.curves.size(), "curve", "curves"),
                             model.units.empty() ? "" : ", units " + model.units,
                             std::holds_alternative<Model<Rational>>(file->model) ? "Q" : "Q(√d)");
         for (const std::string& note : file->notes) text += "note: " + note + "\n";
@@ -58,7 +47,7 @@ int run_convert(const std::string& from, const std::string& to, Decimals decimal
 void add_info(CLI::App& app, int& exit_code) {
   const auto path = std::make_shared<std::string>();
   const auto decimals = std::make_shared<Decimals>(Decimals::exact);
-  CLI::App* command = app.add_subcommand("info", "what a model holds");
+  CLI::App* command = app.add_subcommand("info", "what a model holds: knots, exact smoothness, denominators");
   command->add_option("model", *path, "file to read")->required()->type_name("MODEL");
   add_decimals(*command, *decimals);
   command->callback([=, &exit_code] { exit_code = run_info(*path, *decimals); });

@@ -263,6 +263,66 @@ class Others(Command):
         self.assertIn("numbers in Q\n", text)
         self.assertIn("Q(√d)", self.expect(0, "info", SPHERE).stdout.decode())
 
+    def info(self, **parts):
+        """What info says of a model: the lines after the heading, stripped."""
+        model = self.write("info.json", json.dumps({"format": "patchproof-model", "version": 1, **parts}))
+        lines = self.expect(0, "info", model).stdout.decode().splitlines()
+        self.assertTrue(all(len(line) <= 100 for line in lines[2:]), lines)
+        return [" ".join(line.split()) for line in lines[2:]]
+
+    def test_info_of_curves(self):
+        corner = {"name": "C2 with a corner", "degree": 3, "knots": [0, 0, 0, 0, 1, 2, 3, 3, 3, 3],
+                  "control_points": [[0, 0], [2.5, 5], [2.5, 5], [2.5, 5], [6, 1], [9, 3]]}
+        self.assertEqual(self.info(curves=[corner]), [
+            'curve 0 "C2 with a corner": plane, polynomial, open',
+            "degree 3, 6 control points, domain [0, 3], 3 spans", "knots 0×4 1 2 3×4",
+            "at knot times promised actual first jump, right minus left",
+            "1 1 C2 C2 order 3: (-39/4, -36) no speed, no tangent", "2 1 C2 C2 order 3: (-3, 36)"])
+        torn = {"degree": 2, "knots": [0, 0, 0, 1, 1, 1, 1, 2, 2, 2],
+                "control_points": [[0, 0], [-1, 2], [1, 4], [2, 3], [1, 1], [1, 2], [2.5, 1]]}
+        text = self.info(curves=[torn])
+        self.assertIn("components [0, 1] [1, 2]", text)
+        self.assertIn("without influence: control point 3", text)
+        self.assertIn("1 4 jump jump order 0: (0, -3)", text)
+        negative = {"degree": 2, "control_points": [[1, 0, 0], [1, 1, 0], [0, 1, 0]], "weights": [1, -1, 2]}
+        self.assertIn("rational, w > 0 everywhere", self.info(curves=[negative])[0])
+
+    def test_info_of_a_full_circle(self):
+        """Promised C0, truly C1, and no break at all where two of the quarters are one half circle."""
+        circle = {"degree": 2, "knots": [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], "weights": [1, 1, 2, 1, 1, 1, 2, 1, 1],
+                  "control_points": [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1], [1, 0]]}
+        text = self.info(curves=[circle])
+        self.assertEqual(text[0], "curve 0: plane, rational, w > 0 everywhere, closed, smooth at the seam")
+        self.assertEqual(text[4:], ["1 2 C0 C1 order 2: (-2, 0)", "2 2 C0 smooth", "3 2 C0 C1 order 2: (2, 0)"])
+
+    def test_info_of_patches(self):
+        self.assertEqual(self.expect(0, "info", EXAMPLES / "torus.json").stdout.decode().count("2      C0        C1"), 6)
+        # Bilinear over two spans: a plane has no break in u, and a fold in v.
+        folded = [[[u, v, 0 if v < 2 else 1] for v in range(3)] for u in range(3)]
+        text = self.info(patches=[{"degree": [1, 1], "knots": [[0, 0, 1, 2, 2], [0, 0, 1, 2, 2]], "control_points": folded}])
+        self.assertEqual([line for line in text if line.startswith("1 ")], ["1 1 C0 smooth", "1 1 C0 C0"])
+        self.assertIn("u: degree 3, 4 rows, Bézier on [0, 1]", self.expect(0, "info", CUP).stdout.decode())
+        # One column of weights bends the rows: then the same net is no longer smooth in u.
+        bent = [[1, 1, 1], [1, 1, 2], [1, 1, 1]]
+        text = self.info(patches=[{"degree": [1, 1], "knots": [[0, 0, 1, 2, 2], [0, 0, 1, 2, 2]], "control_points": folded,
+                                   "weights": bent}])
+        self.assertEqual([line for line in text if line.startswith("1 ")], ["1 1 C0 C0", "1 1 C0 C0"])
+
+    def test_info_of_many_knots_is_short(self):
+        n = 500
+        knots = [0] * 4 + list(range(1, n - 3)) + [n - 3] * 4
+        text = self.info(curves=[{"degree": 3, "knots": knots, "control_points": [[i, i * i % 7, 0] for i in range(n)]}])
+        self.assertLess(len(text), 12)
+        self.assertTrue(any("knots of multiplicity 1, C2 promised, C2: 1 2 3" in line for line in text), text)
+        # Exact numbers too long for a table are rounded there, and marked.
+        third = f"{10**30 + 1}/{3 * 10**30}"
+        text = self.info(curves=[{"degree": 1, "knots": [0, 0, third, 1, 1], "control_points": [[0, 0], [1, 1], [2, 0]]}])
+        self.assertTrue(any(line.startswith("≈0.3333333 1 C0 C0") for line in text), text)
+
+    def test_info_keeps_names_on_one_line(self):
+        text = self.info(curves=[{"name": "two\nlines\u001b[31m", "degree": 1, "control_points": [[0, 0], [1, 1]]}])
+        self.assertEqual(text[0], 'curve 0 "two?lines?[31m": plane, polynomial, open')
+
     def test_binary64_decimals_are_other_numbers(self):
         exact = json.loads(self.expect(0, "certify", CUP, "--json", "-").stdout)
         rounded = json.loads(self.expect(0, "certify", CUP, "--json", "-", "--decimals", "binary64").stdout)
