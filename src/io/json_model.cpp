@@ -21,6 +21,14 @@ enum Node {
   kCurve,
   kPatches,
   kPatch,
+  kCoons,
+  kTransfinite,
+  kGordon,
+  kAlong,
+  kCurveList,
+  kControlPoint,  // where a curve might stand
+  kParameters,
+  kParameter,
   kJoins,
   kJoin,
   kSideA,
@@ -51,6 +59,37 @@ constexpr JsonRule kRules[] = {
     {kPatch, "knots", kKnotVectors, JsonType::array},
     {kPatch, "control_points", kNet, JsonType::array},
     {kPatch, "weights", kWeightNet, JsonType::array},
+    {kPatch, "coons", kCoons, JsonType::object},
+    {kCoons, "v_min", kCurve, JsonType::object, true},
+    {kCoons, "v_min", kControlPoint, JsonType::array},
+    {kCoons, "v_max", kCurve, JsonType::object, true},
+    {kCoons, "v_max", kControlPoint, JsonType::array},
+    {kCoons, "u_min", kCurve, JsonType::object, true},
+    {kCoons, "u_min", kControlPoint, JsonType::array},
+    {kCoons, "u_max", kCurve, JsonType::object, true},
+    {kCoons, "u_max", kControlPoint, JsonType::array},
+    {kCoons, "across_v_min", kCurve, JsonType::object},
+    {kCoons, "across_v_min", kControlPoint, JsonType::array},
+    {kCoons, "across_v_max", kCurve, JsonType::object},
+    {kCoons, "across_v_max", kControlPoint, JsonType::array},
+    {kCoons, "across_u_min", kCurve, JsonType::object},
+    {kCoons, "across_u_min", kControlPoint, JsonType::array},
+    {kCoons, "across_u_max", kCurve, JsonType::object},
+    {kCoons, "across_u_max", kControlPoint, JsonType::array},
+    {kPatch, "transfinite", kTransfinite, JsonType::object},
+    {kTransfinite, "along", kAlong, JsonType::string, true},
+    {kTransfinite, "degree", kDegree, JsonType::integer, true},
+    {kTransfinite, "knots", kKnots, JsonType::array},
+    {kTransfinite, "controls", kCurveList, JsonType::array, true},
+    {kPatch, "gordon", kGordon, JsonType::object},
+    {kGordon, "u", kParameters, JsonType::array, true},
+    {kGordon, "v", kParameters, JsonType::array, true},
+    {kGordon, "along_u", kCurveList, JsonType::array, true},
+    {kGordon, "along_v", kCurveList, JsonType::array, true},
+    {kCurveList, "", kCurve, JsonType::object},
+    {kCurveList, "", kControlPoint, JsonType::array},
+    {kControlPoint, "", kCoordinate, JsonType::number},
+    {kParameters, "", kParameter, JsonType::number},
     {kDegrees, "", kDegree, JsonType::integer},
     {kKnotVectors, "", kKnots, JsonType::array},
     {kKnots, "", kKnot, JsonType::number},
@@ -74,10 +113,26 @@ class ModelVisitor final : public JsonVisitor {
   ModelVisitor(const SourceFile& source, ModelSink& sink) : source_(source), sink_(sink) {}
 
   std::optional<Error> begin(int node, const JsonWalker& walker) override {
-    if (node < kSplineNodes) return spline_.begin(node, walker);
+    if (node < kSplineNodes) return current_->begin(node, walker);
     switch (node) {
-      case kCurve: spline_.start(1, walker); break;
-      case kPatch: spline_.start(2, walker); break;
+      case kPatch:
+        patch_.start(2, walker);
+        enclosing_ = current_ = &patch_;
+        construction_.reset();
+        break;
+      case kCoons: return begin_construction(RawConstruction::Kind::coons, walker);
+      case kTransfinite: return begin_construction(RawConstruction::Kind::transfinite, walker);
+      case kGordon: return begin_construction(RawConstruction::Kind::gordon, walker);
+      case kCurve:
+        curve_.start(1, walker);
+        current_ = &curve_;
+        break;
+      case kControlPoint:
+        curve_.start_point(walker);
+        current_ = &curve_;
+        break;
+      case kCurveList:
+      case kParameters: list_ = walker.key(); break;
       case kJoin: join_ = {}; break;
       default: break;
     }
@@ -85,13 +140,18 @@ class ModelVisitor final : public JsonVisitor {
   }
 
   std::optional<Error> end(int node, const JsonWalker& walker) override {
-    if (node < kSplineNodes) return spline_.end(node, walker);
+    if (node < kSplineNodes) return current_->end(node, walker);
     switch (node) {
       case kRoot: return finish(walker);
+      case kPatch: return finish_patch(walker);
+      case kTransfinite:
+        construction_->blending = blending_.raw();
+        enclosing_ = current_ = &patch_;
+        break;
       case kCurve:
-      case kPatch:
-        if (std::optional<Error> error = spline_.finish(source_, walker)) return error;
-        return sink_.add(spline_.raw());
+      case kControlPoint: return finish_curve(walker);
+      case kCurveList: construction_->curves[list_]; break;  // also when it is empty
+      case kParameters: construction_->parameters[list_]; break;
       case kJoin: joins_.push_back(join_); break;
       case kSideA: join_.patch_a = side_patch_, join_.edge_a = side_edge_, check_later('a'); break;
       case kSideB: join_.patch_b = side_patch_, join_.edge_b = side_edge_, check_later('b'); break;
@@ -101,7 +161,7 @@ class ModelVisitor final : public JsonVisitor {
   }
 
   std::optional<Error> leaf(int node, std::string_view text, const JsonWalker& walker) override {
-    if (node < kSplineNodes) return spline_.leaf(node, text, walker);
+    if (node < kSplineNodes) return current_->leaf(node, text, walker);
     switch (node) {
       case kFormat:
         if (text != "patchproof-model")
@@ -111,6 +171,12 @@ class ModelVisitor final : public JsonVisitor {
         if (text != "1") return walker.error(ErrorCode::unsupported, "only version 1 of the format is read", text);
         break;
       case kUnits: sink_.units = text; break;
+      case kAlong:
+        if (text != "u" && text != "v")
+          return walker.error(ErrorCode::syntax, "a blending runs along \"u\" or \"v\"", text);
+        construction_->along_u = text == "u";
+        break;
+      case kParameter: construction_->parameters[list_].push_back(text); break;
       case kReversed: join_.reversed = text == "true"; break;
       case kSidePatch: {
         const std::optional<long> index = to_integer(text);
@@ -134,6 +200,41 @@ class ModelVisitor final : public JsonVisitor {
   }
 
  private:
+  std::optional<Error> begin_construction(RawConstruction::Kind kind, const JsonWalker& walker) {
+    if (construction_) return walker.error(ErrorCode::syntax, "a patch is made in one way only");
+    construction_.emplace();
+    construction_->kind = kind;
+    construction_->at = walker.here();
+    construction_->pointer = walker.pointer();
+    if (kind == RawConstruction::Kind::transfinite) {
+      blending_.start(1, walker);
+      enclosing_ = current_ = &blending_;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Error> finish_patch(const JsonWalker& walker) {
+    if (!construction_) {
+      if (std::optional<Error> error = patch_.finish(source_, walker)) return error;
+      return sink_.add(patch_.raw());
+    }
+    if (!patch_.is_empty())
+      return walker.error(ErrorCode::syntax, "a patch that is made from curves has no degree, knots and points itself");
+    construction_->name = patch_.raw().name;
+    const std::optional<Error> error = sink_.add(*construction_);
+    construction_.reset();
+    return error;
+  }
+
+  // A curve of the model, or one of a construction: under its own key, or in the list last begun.
+  std::optional<Error> finish_curve(const JsonWalker& walker) {
+    if (std::optional<Error> error = curve_.finish(source_, walker)) return error;
+    current_ = enclosing_;
+    if (!construction_) return sink_.add(curve_.raw());
+    construction_->curves[walker.key().empty() ? list_ : walker.key()].push_back(curve_.raw());
+    return std::nullopt;
+  }
+
   // Joins may stand before the patches: the largest index is compared with their number at the end.
   void check_later(char side) {
     if (!largest_ || side_patch_ > largest_->patch) largest_ = Reference{side_patch_, side_text_, joins_.size(), side};
@@ -154,7 +255,11 @@ class ModelVisitor final : public JsonVisitor {
 
   const SourceFile& source_;
   ModelSink& sink_;
-  JsonSpline spline_;
+  JsonSpline patch_, blending_, curve_;
+  JsonSpline* current_ = &patch_;    // which of them is being read
+  JsonSpline* enclosing_ = &patch_;  // and which one after the curve
+  std::optional<RawConstruction> construction_;
+  std::string list_;  // the key of the list last begun in it
   std::vector<DeclaredJoin> joins_;
   struct Reference {
     int patch;

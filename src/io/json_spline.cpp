@@ -15,6 +15,11 @@ void JsonSpline::start(int directions, const JsonWalker& walker) {
   raw_.at = walker.here();
 }
 
+void JsonSpline::start_point(const JsonWalker& walker) {
+  start(1, walker);
+  raw_.layout = JsonLayout::point;
+}
+
 std::optional<Error> JsonSpline::begin(int node, const JsonWalker& walker) {
   switch (node) {
     case kKnots:
@@ -106,6 +111,13 @@ std::optional<Error> JsonSpline::check_point_length(const SourceFile& source) co
 }
 
 std::optional<Error> JsonSpline::finish(const SourceFile& source, const JsonWalker& walker) {
+  if (raw_.layout == JsonLayout::point) {
+    if (components_ != 2 && components_ != 3)
+      return walker.error(ErrorCode::wrong_count, "a point is [x, y] or [x, y, z]", std::to_string(components_));
+    raw_.per_point = static_cast<int>(components_);
+    raw_.count = {1, 1};
+    return std::nullopt;
+  }
   if (degrees_ == 0) return walker.error(ErrorCode::syntax, "the key \"degree\" is missing");
   if (!has_points_) return walker.error(ErrorCode::syntax, "the key \"control_points\" is missing");
   raw_.count = raw_.is_curve() ? std::array{net_.row_length, 1L} : std::array{net_.rows, net_.row_length};

@@ -31,6 +31,8 @@ class JsonSpline {
  public:
   // A curve (1 direction) or a patch (2) begins where the walker stands.
   void start(int directions, const JsonWalker& walker);
+  // A single point, [x, y] or [x, y, z], that stands for a curve: its numbers are kCoordinate nodes.
+  void start_point(const JsonWalker& walker);
   // What JsonVisitor asks, for the nodes above.
   std::optional<Error> begin(int node, const JsonWalker& walker);
   std::optional<Error> end(int node, const JsonWalker& walker);

@@ -29,6 +29,17 @@ bool is_small(const T& x, const T& limit = size_limit<T>()) {
 }
 
 template <ExactField T>
+T magnitude(const T& x) {
+  return x < T(0) ? -x : x;
+}
+
+// Both w·x and x are; with weight 0 there is no x.
+template <ExactField T>
+bool is_small_with_weight(const T& wx, const T& w) {
+  return is_small(wx) && (w == T(0) || is_small(wx, size_limit<T>() * magnitude(w)));
+}
+
+template <ExactField T>
 bool is_one(const T& x) {
   return x == T(1);
 }
@@ -180,11 +191,9 @@ bool ModelBuilder<T>::point(const RawSpline& spline, std::size_t k, Vec<T, 4>& o
   };
   if (!number(weight_text, weight_pointer, weight)) return false;
   if (is_one(weight)) return true;
-  const T room = size_limit<T>() * (weight < T(0) ? -weight : weight);
   for (int c = 0; c < dimension; ++c) {
     if (separate) out[c] = weight * out[c];
-    // Both w·x and x must be small; with weight 0 there is no x.
-    if (is_small(out[c]) && (weight == T(0) || is_small(out[c], room))) continue;
+    if (is_small_with_weight(out[c], weight)) continue;
     return fail(ErrorCode::bad_number, texts[c], "the point, with its weight, is not below 2^1000 in size",
                 fmt::format("{} with weight {}", texts[c], weight_text), spline.coordinate_pointer(k, c));
   }
@@ -204,37 +213,37 @@ std::optional<std::vector<Vec<T, 4>>> ModelBuilder<T>::points(const RawSpline& s
 }
 
 template <ExactField T>
-bool ModelBuilder<T>::denominator_fails(const RawSpline& raw, bool proven, std::string_view where) {
-  const std::string_view at = !raw.weights.empty() ? raw.weights.front() : raw.at;
-  const std::string pointer = raw.layout == JsonLayout::model && raw.weight_form == Weights::homogeneous
-                                  ? raw.points_pointer()
-                                  : raw.weights_pointer();
-  const std::string_view of = raw.is_curve() ? "the denominator of the curve" : "the denominator of the patch";
-  return fail(ErrorCode::vanishing_weight, at,
-              proven ? fmt::format("the weights make {} zero inside its domain", of)
-                     : fmt::format("a zero of {} inside its domain could not be excluded", of),
-              where, pointer);
+typename ModelBuilder<T>::WeightPlace ModelBuilder<T>::weight_place(const RawSpline& spline) {
+  const bool with_points = spline.layout == JsonLayout::model && spline.weight_form == Weights::homogeneous;
+  return {spline.is_curve() ? "curve" : "patch", !spline.weights.empty() ? spline.weights.front() : spline.at,
+          with_points ? spline.points_pointer() : spline.weights_pointer()};
 }
 
 template <ExactField T>
-bool ModelBuilder<T>::denominator_is_fine(const RawSpline& raw, const BsplinePatch<T, 4>& surface) {
+bool ModelBuilder<T>::denominator_is_fine(const WeightPlace& place, const BsplinePatch<T, 4>& surface) {
   const DenominatorVerdict<T> verdict = certify_denominator(surface);
   if (verdict.is_nonzero()) return true;
   const ParameterBox<T>& box = verdict.where;
-  return denominator_fails(raw, verdict.sign == DenominatorSign::vanishes,
-                           fmt::format("u in [{}, {}], v in [{}, {}]", to_text(box.u_begin), to_text(box.u_end),
-                                       to_text(box.v_begin), to_text(box.v_end)));
+  const bool proven = verdict.sign == DenominatorSign::vanishes;
+  return fail(ErrorCode::vanishing_weight, place.at,
+              proven ? "the weights make the denominator of the patch zero inside its domain"
+                     : "a zero of the denominator of the patch inside its domain could not be excluded",
+              fmt::format("u in [{}, {}], v in [{}, {}]", to_text(box.u_begin), to_text(box.u_end),
+                          to_text(box.v_begin), to_text(box.v_end)),
+              place.pointer);
 }
 
 template <ExactField T>
-bool ModelBuilder<T>::denominator_is_fine(const RawSpline& raw, const BsplineCurve<T, 4>& curve) {
+bool ModelBuilder<T>::denominator_is_fine(const WeightPlace& place, const BsplineCurve<T, 4>& curve) {
   std::string where;
   for (const DenominatorZero<T>& zero : certify_denominator(curve).zeros) {
     if (!where.empty()) where += ", ";
     where += zero.is_exact() ? "t = " + to_text(zero.begin)
                              : fmt::format("t in [{}, {}]", to_text(zero.begin), to_text(zero.end));
   }
-  return where.empty() || denominator_fails(raw, true, where);
+  return where.empty() ||
+         fail(ErrorCode::vanishing_weight, place.at,
+              "the weights make the denominator of the curve zero inside its domain", where, place.pointer);
 }
 
 template <ExactField T>
@@ -245,7 +254,7 @@ std::optional<ModelCurve<T>> ModelBuilder<T>::curve(const RawSpline& raw) {
   if (!control) return std::nullopt;
   const bool is_rational = any_weight(*control);
   BsplineCurve<T, 4> curve(std::move(*t), std::move(*control));
-  if (is_rational && !denominator_is_fine(raw, curve)) return std::nullopt;
+  if (is_rational && !denominator_is_fine(weight_place(raw), curve)) return std::nullopt;
   return ModelCurve<T>{raw.name, std::move(curve), is_rational, raw.dimension()};
 }
 
@@ -259,7 +268,7 @@ std::optional<ModelPatch<T>> ModelBuilder<T>::patch(const RawSpline& raw) {
   if (!net) return std::nullopt;
   const bool is_rational = any_weight(*net);
   BsplinePatch<T, 4> surface(std::move(*u), std::move(*v), std::move(*net));
-  if (is_rational && !denominator_is_fine(raw, surface)) return std::nullopt;
+  if (is_rational && !denominator_is_fine(weight_place(raw), surface)) return std::nullopt;
   return ModelPatch<T>{raw.name, std::move(surface), is_rational};
 }
 
@@ -273,6 +282,64 @@ std::optional<Error> ModelBuilder<T>::add(const RawSpline& spline) {
     std::optional<ModelPatch<T>> made = patch(spline);
     if (made) model_.patches.push_back(std::move(*made));
   }
+  return error_;
+}
+
+template <ExactField T>
+std::optional<Construction<T>> ModelBuilder<T>::construction(const RawConstruction& raw) {
+  Construction<T> out;
+  out.kind = raw.kind;
+  out.along_u = raw.along_u;
+  for (const auto& [key, list] : raw.curves) {
+    auto& controls = out.curves[key];
+    for (const RawSpline& spline : list) {
+      std::optional<ModelCurve<T>> read = curve(spline);
+      if (!read) return std::nullopt;
+      controls.push_back({std::move(*read), spline.layout == JsonLayout::point});
+    }
+  }
+  for (const auto& [key, texts] : raw.parameters) {
+    std::vector<T>& values = out.parameters[key];
+    for (const std::string_view text : texts) {
+      const auto pointer = [&] { return fmt::format("{}/{}/{}", raw.pointer, key, values.size() - 1); };
+      if (!number(text, pointer, values.emplace_back())) return std::nullopt;
+    }
+  }
+  if (raw.kind == RawConstruction::Kind::transfinite) {
+    out.blending = knots(raw.blending, 0);
+    if (!out.blending) return std::nullopt;
+  }
+  return out;
+}
+
+template <ExactField T>
+std::optional<ModelPatch<T>> ModelBuilder<T>::patch(const RawConstruction& raw) {
+  const std::optional<Construction<T>> exact = construction(raw);
+  if (!exact) return std::nullopt;
+  Result<ExpandedConstruction<T>> made = expand(*exact);
+  if (!made) {
+    const Error& error = made.error();
+    fail(error.code, raw.at, error.where.empty() ? error.message : error.where + ": " + error.message, error.values,
+         raw.pointer);
+    return std::nullopt;
+  }
+  for (const Vec<T, 4>& p : made->surface.net())
+    if (!is_small(p[3]) || !std::all_of(&p[0], &p[3], [&](const T& wx) { return is_small_with_weight(wx, p[3]); })) {
+      fail(ErrorCode::bad_number, raw.at, "the expanded patch is not below 2^1000 in size", "", raw.pointer);
+      return std::nullopt;
+    }
+  if (made->is_rational && !denominator_is_fine({"patch", raw.at, raw.pointer}, made->surface)) return std::nullopt;
+  const BsplinePatch<T, 4>& surface = made->surface;
+  this->notes.push_back(fmt::format("patch {}: {}, expanded exactly to degree ({}, {})", model_.patches.size(),
+                                    made->kind, surface.degree(Direction::u), surface.degree(Direction::v)));
+  return ModelPatch<T>{raw.name, surface, any_weight(surface.net())};
+}
+
+template <ExactField T>
+std::optional<Error> ModelBuilder<T>::add(const RawConstruction& construction) {
+  error_.reset();
+  std::optional<ModelPatch<T>> made = patch(construction);
+  if (made) model_.patches.push_back(std::move(*made));
   return error_;
 }
 

@@ -3,6 +3,7 @@
 // knots, counts, sizes and weights is found here.
 #pragma once
 
+#include "construction.h"
 #include "raw_spline.h"
 
 namespace patchproof {
@@ -14,6 +15,7 @@ class ModelBuilder final : public ModelSink {
   ModelBuilder(const SourceFile& source, Decimals decimals) : source_(source), decimals_(decimals) {}
 
   std::optional<Error> add(const RawSpline& spline) override;
+  std::optional<Error> add(const RawConstruction& construction) override;
   std::optional<Error> first_bad_number(const RawSpline& spline) override;
   std::size_t patch_count() const override { return model_.patches.size(); }
   std::size_t curve_count() const override { return model_.curves.size(); }
@@ -33,11 +35,18 @@ class ModelBuilder final : public ModelSink {
   bool point(const RawSpline& spline, std::size_t k, Vec<T, 4>& out);
   // All of them, with v running fastest.
   std::optional<std::vector<Vec<T, 4>>> points(const RawSpline& spline, const std::array<int, 2>& count);
-  bool denominator_is_fine(const RawSpline& raw, const BsplinePatch<T, 4>& surface);
-  bool denominator_is_fine(const RawSpline& raw, const BsplineCurve<T, 4>& curve);
-  bool denominator_fails(const RawSpline& raw, bool proven, std::string_view where);
+  // Where the weights of something stand that has a denominator.
+  struct WeightPlace {
+    std::string_view what, at;  // "curve", "patch"
+    std::string pointer;
+  };
+  static WeightPlace weight_place(const RawSpline& spline);
+  bool denominator_is_fine(const WeightPlace& place, const BsplinePatch<T, 4>& surface);
+  bool denominator_is_fine(const WeightPlace& place, const BsplineCurve<T, 4>& curve);
   std::optional<ModelCurve<T>> curve(const RawSpline& raw);
   std::optional<ModelPatch<T>> patch(const RawSpline& raw);
+  std::optional<Construction<T>> construction(const RawConstruction& raw);
+  std::optional<ModelPatch<T>> patch(const RawConstruction& raw);
   bool fail(ErrorCode code, std::string_view at, std::string message, std::string_view values,
             std::string_view pointer);
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,7 +25,12 @@ enum class Weights {
 };
 
 // How a JSON pointer to a number is spelt.
-enum class JsonLayout { none, model, geomdl };
+enum class JsonLayout {
+  none,
+  model,
+  geomdl,
+  point,  // of our model: the whole is one point, [x, y, z]
+};
 
 // A curve (one direction) or a patch (two: u and v).
 struct RawSpline {
@@ -61,11 +67,26 @@ struct RawSpline {
   std::string element_pointer(std::string_view array, std::size_t point) const;
 };
 
+// A patch that is not given by a net but made from curves. Keys are those of our JSON model; a curve of layout `point` is
+// shrunk to a point.
+struct RawConstruction {
+  enum class Kind { coons, transfinite, gordon };
+  Kind kind = Kind::coons;
+  std::string name;
+  std::string_view at;
+  std::string pointer;
+  std::map<std::string, std::vector<RawSpline>> curves;             // "v_min": one curve; "controls": a list
+  std::map<std::string, std::vector<std::string_view>> parameters;  // gordon: "u" and "v"
+  RawSpline blending;                                               // transfinite: degree and knots only
+  bool along_u = true;                                              // transfinite: the direction of the blending
+};
+
 // Where readers deliver. The first error ends the reading.
 class ModelSink {
  public:
   virtual ~ModelSink() = default;
   virtual std::optional<Error> add(const RawSpline& spline) = 0;
+  virtual std::optional<Error> add(const RawConstruction& construction) = 0;
   // The first text among the numbers that is none: what a reader asks when a file ends inside a spline, because two
   // numbers run together make a file seem too short.
   virtual std::optional<Error> first_bad_number(const RawSpline& spline) = 0;

@@ -153,7 +153,9 @@ class SecondOpinion:
             text = copy.read_text(encoding="utf-8")
         if "sqrt" in text:
             return self.leave_out("models with square roots")
-        self.patches = [Patch(p) for p in json.loads(text, parse_float=Fraction)["patches"]]
+        self.patches = [Patch(p) for p in json.loads(text, parse_float=Fraction).get("patches", [])]
+        if not self.patches:
+            return self.leave_out("models without patches")
         done = subprocess.run([self.program, "certify", str(path), "--json", "-"], capture_output=True, text=True)
         for join in json.loads(done.stdout)["joins"]:
             self.name = f"{path.name}: join {join['id']}"
