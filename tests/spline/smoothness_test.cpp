@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "patchproof/spline/bezier_extraction.h"
@@ -290,6 +291,29 @@ TEST(Smoothness, Law5_ParametricSmoothnessIsNoTangent) {
   EXPECT_TRUE(kink.has_tangent);
   // Back the way it came: parallel is not enough.
   EXPECT_FALSE(smoothness(plane_curve(1, "0 0 1 2 2", "0 0  1 1  0 0"))[0].actual.has_tangent);
+}
+
+// What the multiplicities 1 … p + 2 of a knot do to one curve.
+TEST(Smoothness, Law1And3_MultiplicitiesAtAGlance) {
+  const std::vector<Point> points = lar_curve("test12_b1").points();
+  EXPECT_EQ(evaluate(lar_curve("test12_b2"), q(1)), points[2]);  // p: the control point
+  EXPECT_EQ(evaluate(lar_curve("test12_b3"), q(1), Side::left), points[2]);
+  EXPECT_EQ(evaluate(lar_curve("test12_b3"), q(1), Side::right), points[3]);  // p + 1: from one point to the next
+  EXPECT_EQ(evaluate(lar_curve("test12_b4"), q(1), Side::left), points[2]);
+  EXPECT_EQ(evaluate(lar_curve("test12_b4"), q(1), Side::right), points[4]);  // p + 2: the point between is dead
+  EXPECT_EQ(evaluate(lar_curve("test08a"), q(0)), lar_curve("test08a").points().front());
+  EXPECT_EQ(evaluate(lar_curve("test08a"), q(7)), lar_curve("test08a").points().back());
+  EXPECT_EQ(evaluate(lar_curve("over_clamped"), q(1)), lar_curve("over_clamped").points()[2]);
+  EXPECT_EQ(evaluate(lar_curve("partially_clamped"), q(3)), at(q(6), q(1)));  // an end of multiplicity p
+  // test10c: the first piece lies on the line of its first two points, the second on that of its last two.
+  const auto pieces = extract_bezier(lar_curve("test10c"));
+  const auto on_line = [](const std::vector<Point>& piece, const Point& a, const Point& b) {
+    return std::all_of(piece.begin(), piece.end(),
+                       [&](const Point& x) { return (b[0] - a[0]) * (x[1] - a[1]) == (b[1] - a[1]) * (x[0] - a[0]); });
+  };
+  EXPECT_TRUE(on_line(pieces[0].points, at(q(0), q(0)), at(q(5, 2), q(5))));
+  EXPECT_TRUE(on_line(pieces[1].points, at(q(5, 2), q(5)), at(q(6), q(1))));
+  EXPECT_FALSE(on_line(pieces[2].points, at(q(5, 2), q(5)), at(q(6), q(1))));
 }
 
 TEST(Smoothness, Contracts) {
