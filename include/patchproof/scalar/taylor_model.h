@@ -60,8 +60,15 @@ requires(N >= 1 && N <= 30) class TaylorModel {
     for (int k = 1; k <= N; ++k) sum += c_[k] * power_range(k);
     return sum;
   }
-  // The same through Bernstein coefficients on [−1, 1]: narrower when monotone or nearly so, at the cost of N² products.
-  Interval bernstein_range() const;
+  // b_0 … b_N with f(s) ∈ Σ b_i B_i^N((s + 1)/2); each b_i holds the remainder.
+  std::array<Interval, N + 1> bernstein_coefficients() const;
+  // range() through them: narrower when f is monotone or nearly so, at the cost of N² products.
+  Interval bernstein_range() const {
+    const std::array<Interval, N + 1> b = bernstein_coefficients();
+    Interval all = b[0];
+    for (const Interval& x : b) all = hull(all, x);
+    return all;
+  }
 
   TaylorModel& operator+=(const TaylorModel& o) { return *this = *this + o; }
   friend TaylorModel operator+(const TaylorModel& a, const TaylorModel& b) {
@@ -81,6 +88,13 @@ requires(N >= 1 && N <= 30) class TaylorModel {
     TaylorModel out;
     if (a.is_zero() || b.is_zero()) return out;
     if (a.is_unbounded() || b.is_unbounded()) return anything();
+    if (a.is_constant() || b.is_constant()) {
+      const Interval& factor = a.is_constant() ? a.c_[0] : b.c_[0];
+      out = a.is_constant() ? b : a;
+      for (Interval& c : out.c_) c *= factor;
+      out.remainder_ *= factor;
+      return out;
+    }
     std::array<Interval, N> beyond{};  // coefficients of s^(N+1) … s^2N
     for (int i = 0; i <= N; ++i)
       for (int j = 0; j <= N; ++j) (i + j <= N ? out.c_[i + j] : beyond[i + j - N - 1]) += a.c_[i] * b.c_[j];
@@ -90,6 +104,12 @@ requires(N >= 1 && N <= 30) class TaylorModel {
     return out;
   }
   friend TaylorModel operator/(const TaylorModel& a, const TaylorModel& b) {
+    if (b.is_constant() && !(b.c_[0].inf() <= 0 && b.c_[0].sup() >= 0)) {
+      TaylorModel out;
+      for (int k = 0; k <= N; ++k) out.c_[k] = a.c_[k] / b.c_[0];
+      out.remainder_ = a.remainder_ / b.c_[0];
+      return out;
+    }
     const TaylorModel inverse = reciprocal(b);
     return inverse.is_unbounded() ? anything() : a * inverse;
   }
@@ -138,11 +158,13 @@ requires(N >= 1 && N <= 30) class TaylorModel {
   static Interval hull(const Interval& a, const Interval& b) {
     return Interval(std::min(a.inf(), b.inf()), std::max(a.sup(), b.sup()));
   }
-  bool is_zero() const {
-    for (const Interval& c : c_)
-      if (c.inf() != 0 || c.sup() != 0) return false;
-    return remainder_.inf() == 0 && remainder_.sup() == 0;
+  static bool is_zero(const Interval& x) { return x.inf() == 0 && x.sup() == 0; }
+  bool is_constant() const {  // an interval of constants
+    for (int k = 1; k <= N; ++k)
+      if (!is_zero(c_[k])) return false;
+    return is_zero(remainder_);
   }
+  bool is_zero() const { return is_constant() && is_zero(c_[0]); }
   bool is_unbounded() const {
     constexpr double kLargest = std::numeric_limits<double>::max();
     const Interval all = range();
@@ -204,7 +226,7 @@ requires(N >= 1 && N <= 30) class TaylorModel {
 
 // With s = 2x − 1 and a_j = Σ_k c_k C(k,j) 2^j (−1)^(k−j):  b_i = Σ_{j ≤ i} C(i,j)/C(N,j) a_j.
 template <int N>
-requires(N >= 1 && N <= 30) Interval TaylorModel<N>::bernstein_range()
+requires(N >= 1 && N <= 30) std::array<Interval, N + 1> TaylorModel<N>::bernstein_coefficients()
 const {
   std::array<std::array<Interval, N + 1>, N + 1> choose{};
   for (int i = 0; i <= N; ++i) {
@@ -219,13 +241,12 @@ const {
       a[j] += (k - j) % 2 == 0 ? term : -term;
     }
   }
-  Interval all = a[0];
-  for (int i = 1; i <= N; ++i) {
-    Interval b = a[0];
-    for (int j = 1; j <= i; ++j) b += choose[i][j] / choose[N][j] * a[j];
-    all = hull(all, b);
+  std::array<Interval, N + 1> b;
+  for (int i = 0; i <= N; ++i) {
+    b[i] = a[0] + remainder_;
+    for (int j = 1; j <= i; ++j) b[i] += choose[i][j] / choose[N][j] * a[j];
   }
-  return all + remainder_;
+  return b;
 }
 
 template <int N>

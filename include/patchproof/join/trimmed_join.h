@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joins of trimmed faces: two surfaces, and on each a curve in its parameters, run through together by one parameter t.
+//
+//   gap    g(t) = | S_a(c_a(t)) − S_b(c_b(t)) |
+//   angle  θ(t) = the angle in [0°, 180°] between the faces' normals, ±S_u × S_v at c_a(t) and c_b(t)
+//
+// Both are enclosed over the whole range of t. S∘c is evaluated at Taylor models of t (scalar/taylor_model.h), so the
+// differences are formed on coefficients; their Bernstein hulls are bounded by deviation.h, and pieces are halved where
+// that is not yet tight. A piece lies between knots of both surfaces; where a parameter curve crosses or follows a knot
+// line, pieces that cannot be told apart are taken on every polynomial they may belong to.
+//
+// A whole edge along which both parameter curves are straight, on an edge of its surface's domain, and run at constant speed is
+// an isoparametric join (join.h): to_isoparametric recognises it, and certify_join decides it exactly.
+//
+// REQUIRES  denominators without a zero on the domains; parameter curves over the same range. Where a curve leaves its
+//           surface's domain (by rounding), the surface's outermost polynomials are continued: see `outside`.
+// ENSURES   (1) lower ≤ sup ≤ upper; lower is attained at `t`;  (2) exactly equal edges give lower = 0, and an upper bound
+//           of the size of the rounding errors;  (3) swapping or reversing both sides gives the same enclosures up to
+//           rounding;  (4) where to_isoparametric answers, certify_join's bounds and these overlap.
+// ERRORS    none: what is not bounded ends as upper = +infinity (gap) or 180 (angle), not converged.
+// COST      about 0.3 ms for each piece of a pair of bicubic surfaces; budget.nodes halvings at most.
+// TEST      tests/join/trimmed_join_test.cpp checks (1)–(4).
+#pragma once
+
+#include <optional>
+
+#include "patchproof/join/deviation.h"
+#include "patchproof/join/join.h"
+#include "patchproof/patch/bspline_patch.h"
+#include "patchproof/scalar/rational.h"
+#include "patchproof/spline/curve.h"
+
+namespace patchproof {
+
+// A face along an edge.
+struct TrimmedSide {
+  const BsplinePatch<Rational, 4>* surface;
+  BsplineCurve<Rational, 3> parameters;  // homogeneous (w·u, w·v, w)
+  bool flipped = false;                  // the face's normal is −S_u × S_v
+};
+
+struct TrimmedJoin {
+  TrimmedSide a, b;
+};
+
+struct TrimmedBound {
+  double lower = 0, upper = 0;  // gap: model units;  angles: degrees
+  Rational t;                   // the witness of `lower`
+  bool converged = true;        // upper − lower ≤ 1 % of upper, or upper below 2⁻⁴⁰ of the edge's size
+};
+
+struct TrimmedBounds {
+  TrimmedBound gap, angle, plane_angle;
+  double outside = 0;  // how far a parameter curve leaves the domain of its surface, at least: found where pieces end
+};
+
+// REQUIRES (debug) a RoundingGuard alive.
+TrimmedBounds bound_trimmed(const TrimmedJoin& join, const Budget& budget = {});
+
+// The same join as two edges of the surfaces' domains, whole or in part, when it is one. Which side of the edge the faces
+// lie on is then known, which the exact classes need; flipped normals are not their business.
+std::optional<Join<Rational>> to_isoparametric(const TrimmedJoin& join);
+
+}  // namespace patchproof
