@@ -210,6 +210,8 @@ std::string describe_patch(std::size_t index, const ModelPatch<T>& p) {
     text += knot_lines(p.surface.knots(d), d == Direction::u ? "row" : "column",
                        d == Direction::u ? "  u: " : "  v: ", "     ");
     if (sign == DenominatorSign::vanishes || sign == DenominatorSign::undecided) continue;
+    const int seam = closing_order(p.surface, p.is_rational, d);
+    if (seam >= 0) text += fmt::format("     closed, {} at the seam\n", class_name(seam));
     std::vector<BreakRow> rows;
     for (const auto& b : patch_smoothness(p.surface, p.is_rational, d))
       rows.push_back({brief(b.value), b.multiplicity, b.nominal, b.actual, "", ""});

@@ -50,21 +50,29 @@ class DecidingLines {
     }
   }
 
-  // The lowest order of any line; `floor`: none can be lower.
+  // The lowest order of any line; `floor`: none can be lower. Across an inner knot, or from the end to the begin.
   int worst_order_at(const T& break_value, int floor) {
-    int worst = kOneFunction;
-    const std::size_t count = is_rational_ ? parameters_.size() : lines_of_net_.size();
-    for (std::size_t line = 0; line < count && worst > floor; ++line)
-      worst = std::min(worst, order_at(line, break_value));
-    return worst;
+    return worst(floor, [&](const BsplineCurve<T, 4>& line) {
+      return is_rational_ ? smoothness_at_rational(line, break_value).order : smoothness_at(line, break_value).order;
+    });
+  }
+  int worst_order_at_seam() {
+    return worst(-1, [&](const BsplineCurve<T, 4>& line) {
+      return is_rational_ ? closing_smoothness_rational(line).order : closing_smoothness(line).order;
+    });
   }
 
  private:
-  int order_at(std::size_t line, const T& break_value) {
-    const auto found = made_.try_emplace(line, std::nullopt).first;
-    if (!found->second) found->second = make(line);
-    const BsplineCurve<T, 4>& curve = *found->second;
-    return is_rational_ ? smoothness_at_rational(curve, break_value).order : smoothness_at(curve, break_value).order;
+  template <class OrderOf>
+  int worst(int floor, OrderOf order_of) {
+    int worst = kOneFunction;
+    const std::size_t count = is_rational_ ? parameters_.size() : lines_of_net_.size();
+    for (std::size_t i = 0; i < count && worst > floor; ++i) {
+      const auto found = made_.try_emplace(i, std::nullopt).first;
+      if (!found->second) found->second = make(i);
+      worst = std::min(worst, order_of(*found->second));
+    }
+    return worst;
   }
 
   BsplineCurve<T, 4> make(std::size_t line) const {
@@ -101,6 +109,12 @@ std::vector<PatchBreak<T>> patch_smoothness(const BsplinePatch<T, 4>& patch, boo
     out.push_back({breaks[b], multiplicity, nominal, worst});
   }
   return out;
+}
+
+// The order with which the patch closes in direction d, −1 when it does not. REQUIRES the denominator has no zero.
+template <ExactField T>
+int closing_order(const BsplinePatch<T, 4>& patch, bool is_rational, Direction d) {
+  return detail::DecidingLines<T>(patch, is_rational, d).worst_order_at_seam();
 }
 
 }  // namespace patchproof::cli

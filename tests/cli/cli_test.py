@@ -297,6 +297,7 @@ class Others(Command):
 
     def test_info_of_patches(self):
         self.assertEqual(self.expect(0, "info", EXAMPLES / "torus.json").stdout.decode().count("2      C0        C1"), 6)
+        self.assertEqual(self.expect(0, "info", EXAMPLES / "torus.json").stdout.decode().count("closed, C1 at the seam"), 2)
         # Bilinear over two spans: a plane has no break in u, and a fold in v.
         folded = [[[u, v, 0 if v < 2 else 1] for v in range(3)] for u in range(3)]
         text = self.info(patches=[{"degree": [1, 1], "knots": [[0, 0, 1, 2, 2], [0, 0, 1, 2, 2]], "control_points": folded}])
