@@ -244,10 +244,10 @@ TEST(Plot, Law5_MeshFilesHoldThePartsInOrder) {
   const std::string obj = plot(model, PlotFormat::obj, {"", false, {}, 2, {}, {}}).value();
   std::vector<std::string> names;
   const std::regex object("\no (.*)\n");
-  for (std::sregex_iterator it(obj.begin(), obj.end(), object), end; it != end; ++it)
-    names.push_back((*it)[1]);
+  for (std::sregex_iterator it(obj.begin(), obj.end(), object), end; it != end; ++it) names.push_back((*it)[1]);
   EXPECT_EQ(names, (std::vector<std::string>{"jumping, component 0", "jumping, component 1", "saddle"}));
-  EXPECT_EQ(std::count(obj.begin(), obj.end(), 'f'), 16);
+  const std::regex face("\nf ");
+  EXPECT_EQ(std::distance(std::sregex_iterator(obj.begin(), obj.end(), face), std::sregex_iterator()), 16);
   const std::string glb = plot(model, PlotFormat::glb).value();
   EXPECT_EQ(glb.substr(0, 4), "glTF");
   const std::string stl = plot(model, PlotFormat::stl, {"", false, {}, 3, {}, {}}).value();

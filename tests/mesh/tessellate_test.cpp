@@ -196,6 +196,7 @@ TEST(Tessellate, Errors) {
   EXPECT_EQ(error.code, ErrorCode::bad_number);
   EXPECT_EQ(error.where, "at (0)");
   EXPECT_EQ(tessellate(patch_of({{q(1), q(1), q(1), q(1)}}), {1 << 14, 1 << 14}).error().code, ErrorCode::usage);
+  EXPECT_EQ(tessellate(curve_of({{q(1), q(1), q(1), q(1)}}), 2000000000).error().code, ErrorCode::usage);
   EXPECT_THROW((void)tessellate(curve_of({{q(1), q(1), q(1), q(1)}}), 0), contract_error);
 }
 

@@ -79,17 +79,23 @@ bool is_finite(const Vec<double, 3>& p);
 // The error for a point at these parameters.
 Error not_a_double(std::span<const double> parameters, bool no_weight);
 
-template <OrderedField K, std::size_t D>
-std::optional<Error> too_many_vertices(const std::array<SampledDomain<K>, D>& directions) {
+// The error when a product of so many vertices is too much; asked before anything of that size is built.
+template <std::size_t D>
+std::optional<Error> too_many_vertices(const std::array<std::size_t, D>& along) {
   std::size_t count = 1;
-  for (const SampledDomain<K>& direction : directions) {
-    std::size_t along = 0;
-    for (const auto& component : direction) along += component.size();
-    if (along > kMaxMeshVertices / count)
+  for (const std::size_t n : along) {
+    if (n > kMaxMeshVertices / count)
       return Error{ErrorCode::usage, "", "the mesh would have more than 2^26 vertices; ask for fewer cells", ""};
-    count *= along;
+    count *= std::max<std::size_t>(n, 1);
   }
   return std::nullopt;
+}
+
+// At least so many vertices has sample_spans.
+template <OrderedField K>
+std::size_t vertices_along(const KnotVector<K>& knots, int cells_per_span) {
+  PATCHPROOF_REQUIRES(cells_per_span >= 1, "tessellate: at least one cell in each span");
+  return (knots.breaks().size() - 1) * static_cast<std::size_t>(cells_per_span) + 1;
 }
 
 template <OrderedField K, std::size_t D>
@@ -149,7 +155,10 @@ constexpr double kNoise = 0x1p-36;
 
 template <OrderedField K, std::size_t D, class F>
 Result<std::vector<Tessellation<D>>> tessellate_map(const std::array<SampledDomain<K>, D>& directions, F f) {
-  if (auto error = detail::too_many_vertices(directions)) return *error;
+  std::array<std::size_t, D> along{};
+  for (std::size_t axis = 0; axis < D; ++axis)
+    for (const auto& component : directions[axis]) along[axis] += component.size();
+  if (auto error = detail::too_many_vertices(along)) return *error;
   std::vector<Tessellation<D>> out;
   for (const DomainGrid<K, D>& grid : domain_grids(directions)) {
     Tessellation<D> piece{map_domain(grid, f), detail::rounded_parameters(grid), {}};
@@ -163,6 +172,8 @@ Result<std::vector<Tessellation<D>>> tessellate_map(const std::array<SampledDoma
 
 template <Field T, OrderedField K>
 Result<std::vector<Tessellation<1>>> tessellate(const BsplineCurve<T, 4, K>& curve, int cells_per_span) {
+  if (auto error = detail::too_many_vertices(std::array{detail::vertices_along(curve.knots(), cells_per_span)}))
+    return *error;
   std::vector<Vec<double, 4>> points;
   for (const Vec<T, 4>& p : curve.points())
     points.push_back({{embed<double>(p[0]), embed<double>(p[1]), embed<double>(p[2]), embed<double>(p[3])}});
@@ -183,8 +194,10 @@ Result<std::vector<Tessellation<1>>> tessellate(const BsplineCurve<T, 4, K>& cur
 template <Field T, OrderedField K>
 Result<std::vector<Tessellation<2>>> tessellate(const BsplinePatch<T, 4, K>& patch, std::array<int, 2> cells_per_span) {
   const KnotVector<K>&knots_u = patch.knots(Direction::u), &knots_v = patch.knots(Direction::v);
+  if (auto error = detail::too_many_vertices(std::array{detail::vertices_along(knots_u, cells_per_span[0]),
+                                                        detail::vertices_along(knots_v, cells_per_span[1])}))
+    return *error;
   const std::array directions{sample_spans(knots_u, cells_per_span[0]), sample_spans(knots_v, cells_per_span[1])};
-  if (auto error = detail::too_many_vertices(directions)) return *error;
   const auto rounded = map_points(patch, [](const Vec<T, 4>& p) {
     return Vec<double, 4>{{embed<double>(p[0]), embed<double>(p[1]), embed<double>(p[2]), embed<double>(p[3])}};
   });

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Models as pictures and as meshes.
+//
+//   svg   curves with control polygon and knots; patches shaded, with isoparametric lines; or, with `basis`, the graphs of
+//         the B-spline functions (and R_i = w_i N_i / Σ w_j N_j where there are weights) over their knots
+//   obj, stl, vtu, glb   the tessellated model: mesh_files.h
+//
+// A curve in the plane is drawn in its plane with axes; everything else in one orthographic view, z up, patches from back
+// to front. Polynomial pieces of degree 1 to 3 are exact Bézier commands of SVG, the others polylines. A control point of
+// weight 0 is a vector and is drawn as one. Colours read on light and on dark ground; nothing is fetched from elsewhere.
+//
+// ENSURES  (1) an svg has one path for each component of each curve, broken where the curve jumps; a polynomial piece of
+//              degree ≤ 3 is one command with its Bézier points, to 1/100 of a page unit;
+//          (2) all coordinates of the picture lie within its viewBox;  (3) the same model and options give the same bytes;
+//          (4) basis: one line for each function and component, for each distinct knot vector drawn;
+//          (5) a mesh file holds the curves and patches of the model in order, one part for each component.
+// ERRORS   bad_reference: no such curve or patch;  usage: nothing to draw, or a picture with too many cells;
+//          what tessellate and mesh_files.h say.
+// NEIGHBOURS mesh_files.h, read.h.
+// TEST     tests/io/plot_test.cpp checks (1)–(5).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "patchproof/error.h"
+#include "patchproof/io/model.h"
+
+namespace patchproof {
+
+enum class PlotFormat { svg, obj, stl, vtu, glb };
+
+// "svg" or ".svg", in any case, to the format.
+std::optional<PlotFormat> plot_format(std::string_view name);
+
+struct PlotOptions {
+  std::string title;                    // above the picture
+  bool basis = false;                   // the functions instead of the geometry; svg only
+  std::optional<bool> control{};        // control polygons and nets; empty: of curves only
+  std::optional<int> cells{};           // in each span; empty: chosen
+  std::optional<int> curve{}, patch{};  // only this one, from 0
+};
+
+// The bytes of the file. T: Rational or Quadratic.
+template <ExactField T>
+Result<std::string> plot(const Model<T>& model, PlotFormat format, const PlotOptions& options = {});
+
+}  // namespace patchproof

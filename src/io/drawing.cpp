@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/mesh_parts.h"
+#include "patchproof/spline/bezier_extraction.h"
+
+namespace patchproof {
+namespace {
+
+constexpr int kCurveCells = 96, kBasisCells = 32;
+constexpr int kPictureQuadrangles = 8000;    // about so many when the cells are chosen here
+constexpr std::size_t kMostDrawn = 1000000;  // edges or quadrangles; more than any viewer of SVG bears
+
+// Short and exact, or 4 digits.
+template <ExactField T>
+std::string label_of(const T& t) {
+  const std::string exact = to_text(t);
+  return exact.size() <= 6 ? exact : fmt::format("{:.4g}", nearest_double(t));
+}
+
+template <ExactField T>
+DrawnControl control_of(const Vec<T, 4>& p) {
+  const bool is_vector = p[3] == T(0);
+  DrawnControl out{{}, is_vector};
+  for (std::size_t i = 0; i < 3; ++i) out.at[i] = nearest_double(is_vector ? p[i] : p[i] / p[3]);
+  return out;
+}
+
+// The Bézier points of a polynomial piece of degree 1 to 3.
+template <ExactField T>
+std::optional<std::vector<Point3>> bezier_points(const std::vector<Vec<T, 4>>& points) {
+  if (points.size() < 2 || points.size() > 4) return std::nullopt;
+  std::vector<Point3> out;
+  for (const Vec<T, 4>& p : points) {
+    if (!(p[3] == points[0][3]) || p[3] == T(0)) return std::nullopt;
+    out.push_back(control_of(p).at);
+  }
+  return out;
+}
+
+template <ExactField T>
+Result<CurveDrawing> draw_curve(const ModelCurve<T>& model, int index, int cells) {
+  const BsplineCurve<T, 4>& curve = model.curve;
+  CurveDrawing out{
+      title_of("curve", index, model.name), curve.degree(), model.is_rational, model.dimension == 2, {}, {}};
+  const auto pieces = tessellate(curve, cells);
+  if (!pieces) return Error{pieces.error().code, out.name, pieces.error().message, pieces.error().where};
+  for (const Vec<T, 4>& p : curve.points()) out.controls.push_back(control_of(p));
+  for (const DrawnControl& c : out.controls)
+    if (!detail::is_finite(c.at))
+      return Error{ErrorCode::bad_number, out.name, "a control point is no finite number in doubles", ""};
+  const auto bezier = extract_bezier(curve);
+  const std::vector<T> breaks = curve.knots().breaks();
+  std::size_t span = 0;
+  for (std::size_t c = 0; c < pieces->size(); ++c) {
+    const std::vector<Point3>& vertices = (*pieces)[c].mesh.vertices;
+    CurveDrawing::Component component;
+    const std::size_t spans = (vertices.size() - 1) / cells;
+    for (std::size_t s = 0; s <= spans; ++s) {
+      const std::size_t v = s * cells;
+      const int multiplicity = curve.knots().multiplicity(breaks[span + s]);
+      std::string label = label_of(breaks[span + s]);
+      // The two limits at a jump are two places.
+      if (s == spans && c + 1 < pieces->size()) label += "−";
+      if (s == 0 && c > 0) label += "+";
+      if (multiplicity > 1 && s > 0 && s < spans) label += fmt::format(" ×{}", multiplicity);
+      component.marks.push_back(
+          {vertices[v], vertices[v > 0 ? v - 1 : v], vertices[v + 1 < vertices.size() ? v + 1 : v], label});
+      if (s == spans) break;
+      const auto exact = bezier_points(bezier[span + s].points);
+      component.exact.push_back(exact.has_value());
+      component.segments.push_back(exact ? *exact
+                                         : std::vector<Point3>(vertices.begin() + v, vertices.begin() + v + cells + 1));
+    }
+    span += spans;
+    out.components.push_back(std::move(component));
+  }
+  return out;
+}
+
+template <ExactField T>
+Result<PatchDrawing> draw_patch(const ModelPatch<T>& model, int index, int cells, bool control) {
+  const BsplinePatch<T, 4>& s = model.surface;
+  PatchDrawing out{title_of("patch", index, model.name),
+                   {s.degree(Direction::u), s.degree(Direction::v)},
+                   {cells, cells},
+                   model.is_rational,
+                   {},
+                   {s.count(Direction::u), s.count(Direction::v)},
+                   {}};
+  auto pieces = tessellate(s, out.cells);
+  if (!pieces) return Error{pieces.error().code, out.name, pieces.error().message, pieces.error().where};
+  out.pieces = std::move(*pieces);
+  if (!control) return out;
+  for (const Vec<T, 4>& p : s.net()) {
+    out.controls.push_back(control_of(p));
+    if (!detail::is_finite(out.controls.back().at))
+      return Error{ErrorCode::bad_number, out.name, "a control point is no finite number in doubles", ""};
+  }
+  return out;
+}
+
+// Along each side of a span; a multiple of 4, for the isoparametric lines, when there are that many.
+int picture_cells(std::size_t spans) {
+  const double wide = std::sqrt(kPictureQuadrangles / std::max<double>(1, static_cast<double>(spans)));
+  const int cells = std::clamp(static_cast<int>(wide), 2, 24);
+  return cells < 4 ? cells : cells - cells % 4;
+}
+
+template <ExactField T>
+std::size_t spans_of(const BsplinePatch<T, 4>& s) {
+  return (s.knots(Direction::u).breaks().size() - 1) * (s.knots(Direction::v).breaks().size() - 1);
+}
+
+Error too_much_to_draw() {
+  return {ErrorCode::usage, "svg", "more than a million cells to draw; ask for fewer cells, or for one curve or patch",
+          ""};
+}
+
+// The graphs of all functions on the knots; with weights, of the rational ones.
+template <ExactField T>
+Result<BasisDrawing> graphs(const std::string& title, const KnotVector<T>& knots, const std::vector<T>& weights,
+                            int cells) {
+  BasisDrawing out{title, knots.degree(), !weights.empty(), {}, {}, {}};
+  const T &first = knots.knots().front(), range = knots.knots().back() - first;
+  const auto place = [&](const T& t) { return nearest_double(T((t - first) / range)); };
+  out.domain = {place(knots.domain_begin()), place(knots.domain_end())};
+  for (std::size_t i = 0; i < knots.knots().size(); ++i) {
+    const T& t = knots.knots()[i];
+    if (i > 0 && t == knots.knots()[i - 1]) continue;
+    out.knots.push_back({place(t), knots.multiplicity(t), label_of(t)});
+  }
+  const int p = knots.degree();
+  out.functions.resize(knots.control_count());
+  for (const auto& samples : sample_spans(knots, cells)) {
+    std::vector<int> spans;
+    std::vector<std::vector<double>> live;  // the p + 1 functions of the span, at each sample
+    for (const auto& [t, side] : samples) {
+      spans.push_back(knots.find_span(t, side));
+      std::vector<T> values = basis_in_span<T>(knots, spans.back(), t);
+      T sum(weights.empty() ? 1 : 0);
+      for (int j = 0; j <= p && !weights.empty(); ++j) sum += values[j] = values[j] * weights[spans.back() - p + j];
+      if (sum == T(0)) return Error{ErrorCode::vanishing_weight, title, "the denominator is zero", "at " + label_of(t)};
+      live.emplace_back();
+      for (const T& value : values) live.back().push_back(nearest_double(T(value / sum)));
+    }
+    for (int i = 0; i < knots.control_count(); ++i) {
+      const T begin = std::max(knots[i], samples.front().t), end = std::min(knots[i + p + 1], samples.back().t);
+      if (!(begin < end)) continue;
+      std::vector<std::array<double, 2>> line;
+      const auto begins =
+          std::lower_bound(samples.begin(), samples.end(), begin, [](const auto& s, const T& t) { return s.t < t; });
+      for (std::size_t k = begins - samples.begin(); k < samples.size() && !(end < samples[k].t); ++k) {
+        const int j = i - spans[k] + p;  // at the end of the support the next span lives, and the function is 0
+        line.push_back({place(samples[k].t), 0 <= j && j <= p ? live[k][j] : 0.0});
+      }
+      out.functions[i].components.push_back(std::move(line));
+    }
+  }
+  return out;
+}
+
+template <ExactField T>
+struct BasisSource {
+  std::string owner;
+  KnotVector<T> knots;
+  std::vector<T> weights;  // empty: no rational functions
+};
+
+template <ExactField T>
+bool has_different_weights(const std::vector<T>& weights) {
+  return std::any_of(weights.begin(), weights.end(), [&](const T& w) { return !(w == weights.front()); });
+}
+
+}  // namespace
+
+Result<std::vector<int>> chosen(std::size_t count, const std::optional<int>& only, bool others_chosen,
+                                const std::string& what) {
+  std::vector<int> out;
+  if (only) {
+    if (*only < 0 || *only >= static_cast<int>(count))
+      return Error{ErrorCode::bad_reference, "--" + what,
+                   count == 0 ? fmt::format("the model has no {}", what == "patch" ? "patches" : "curves")
+                   : count == 1
+                       ? fmt::format("the model has one {}, number 0", what)
+                       : fmt::format("the model has {} 0 to {}", what == "patch" ? "patches" : "curves", count - 1),
+                   std::to_string(*only)};
+    out.push_back(*only);
+  } else if (!others_chosen) {
+    for (std::size_t i = 0; i < count; ++i) out.push_back(static_cast<int>(i));
+  }
+  return out;
+}
+
+std::string title_of(const std::string& what, int index, const std::string& name) {
+  return name.empty() ? fmt::format("{} {}", what, index) : printable(name);
+}
+
+template <ExactField T>
+Result<Drawing> draw(const Model<T>& model, const PlotOptions& options) {
+  const auto curves = chosen(model.curves.size(), options.curve, options.patch.has_value(), "curve");
+  const auto patches = chosen(model.patches.size(), options.patch, options.curve.has_value(), "patch");
+  if (!curves) return curves.error();
+  if (!patches) return patches.error();
+  Drawing out;
+  std::size_t spans = 0, edges = 0;
+  for (const int i : *patches) spans += spans_of(model.patches[i].surface);
+  for (const int i : *curves) edges += model.curves[i].curve.knots().breaks().size() - 1;
+  const int cells = options.cells.value_or(picture_cells(spans));
+  const std::size_t wide = static_cast<std::size_t>(cells);
+  if (spans > kMostDrawn || spans * wide > kMostDrawn || spans * wide * wide > kMostDrawn) return too_much_to_draw();
+  const int curve_cells = options.cells.value_or(kCurveCells);
+  if (edges > kMostDrawn || edges * static_cast<std::size_t>(curve_cells) > kMostDrawn) return too_much_to_draw();
+  for (const int i : *curves) {
+    auto drawn = draw_curve(model.curves[i], i, curve_cells);
+    if (!drawn) return drawn.error();
+    out.curves.push_back(std::move(*drawn));
+  }
+  for (const int i : *patches) {
+    auto drawn = draw_patch(model.patches[i], i, cells, options.control.value_or(false));
+    if (!drawn) return drawn.error();
+    out.patches.push_back(std::move(*drawn));
+  }
+  return out;
+}
+
+template <ExactField T>
+Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOptions& options) {
+  const auto curves = chosen(model.curves.size(), options.curve, options.patch.has_value(), "curve");
+  const auto patches = chosen(model.patches.size(), options.patch, options.curve.has_value(), "patch");
+  if (!curves) return curves.error();
+  if (!patches) return patches.error();
+  std::vector<BasisSource<T>> sources;
+  const auto add = [&](const std::string& owner, const KnotVector<T>& knots, std::vector<T> weights) {
+    if (!has_different_weights(weights)) weights.clear();
+    for (BasisSource<T>& s : sources)
+      if (s.knots == knots && s.weights == weights) {
+        if (!s.owner.ends_with(", …")) s.owner += s.owner.size() < 60 ? ", " + owner : ", …";
+        return;
+      }
+    sources.push_back({owner, knots, std::move(weights)});
+  };
+  for (const int i : *curves) {
+    const ModelCurve<T>& c = model.curves[i];
+    std::vector<T> weights;
+    for (const Vec<T, 4>& p : c.curve.points()) weights.push_back(p[3]);
+    add(title_of("curve", i, c.name), c.curve.knots(), std::move(weights));
+  }
+  for (const int i : *patches) {
+    const ModelPatch<T>& p = model.patches[i];
+    for (const Direction d : {Direction::u, Direction::v})
+      add(title_of("patch", i, p.name) + (d == Direction::u ? " along u" : " along v"), p.surface.knots(d), {});
+  }
+  std::vector<BasisDrawing> out;
+  std::size_t cells_drawn = 0;
+  const int cells = options.cells.value_or(kBasisCells);
+  for (const BasisSource<T>& s : sources) {
+    cells_drawn += (s.knots.breaks().size() - 1) * (s.knots.degree() + 1);
+    if (cells_drawn * static_cast<std::size_t>(cells) > kMostDrawn) return too_much_to_draw();
+    for (const bool rational : {false, true}) {
+      if (rational && s.weights.empty()) continue;
+      auto panel = graphs(s.owner, s.knots, rational ? s.weights : std::vector<T>{}, cells);
+      if (!panel) return panel.error();
+      out.push_back(std::move(*panel));
+    }
+  }
+  return out;
+}
+
+template Result<Drawing> draw(const Model<Rational>&, const PlotOptions&);
+template Result<Drawing> draw(const Model<Quadratic>&, const PlotOptions&);
+template Result<std::vector<BasisDrawing>> draw_basis(const Model<Rational>&, const PlotOptions&);
+template Result<std::vector<BasisDrawing>> draw_basis(const Model<Quadratic>&, const PlotOptions&);
+
+}  // namespace patchproof

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is to be drawn, in doubles: between the exact model and the page.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "patchproof/io/plot.h"
+#include "patchproof/mesh/tessellate.h"
+
+namespace patchproof {
+
+using Point3 = Vec<double, 3>;
+
+// A control point, or, when its weight is 0, a control vector.
+struct DrawnControl {
+  Point3 at;
+  bool is_vector;
+};
+
+struct CurveDrawing {
+  struct Mark {                // a break of the knots, on the curve
+    Point3 at, before, after;  // neighbours on the curve, for the direction
+    std::string label;
+  };
+  struct Component {
+    std::vector<std::vector<Point3>> segments;  // Bézier points of degree ≤ 3, or a polyline of 5 and more points
+    std::vector<bool> exact;                    // for each segment: Bézier points
+    std::vector<Mark> marks;
+  };
+  std::string name;
+  int degree = 0;
+  bool is_rational = false, is_plane = false;
+  std::vector<Component> components;
+  std::vector<DrawnControl> controls;
+};
+
+struct PatchDrawing {
+  std::string name;
+  std::array<int, 2> degree{}, cells{};  // cells in each span
+  bool is_rational = false;
+  std::vector<Tessellation<2>> pieces;
+  std::array<int, 2> count{};  // control points along u and v; v runs fastest
+  std::vector<DrawnControl> controls;
+};
+
+// Parameters t stand at (t − first knot)/(last knot − first knot), computed exactly.
+struct BasisDrawing {
+  struct Knot {
+    double at;
+    int multiplicity;
+    std::string label;
+  };
+  struct Function {
+    std::vector<std::vector<std::array<double, 2>>> components;  // (place of t, value)
+  };
+  std::string title;
+  int degree = 0;
+  bool is_rational = false;
+  std::array<double, 2> domain{};
+  std::vector<Knot> knots;
+  std::vector<Function> functions;
+};
+
+struct Drawing {
+  std::vector<CurveDrawing> curves;
+  std::vector<PatchDrawing> patches;
+};
+
+// The curves and patches that the options choose.
+template <ExactField T>
+Result<Drawing> draw(const Model<T>& model, const PlotOptions& options);
+
+// One for each distinct knot vector among them, and one more for each with weights.
+template <ExactField T>
+Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOptions& options);
+
+std::string svg_scene(const Drawing& drawing, const PlotOptions& options);
+std::string svg_basis(const std::vector<BasisDrawing>& panels, const PlotOptions& options);
+
+// The indices that the options choose: `only`, or all.
+Result<std::vector<int>> chosen(std::size_t count, const std::optional<int>& only, bool others_chosen,
+                                const std::string& what);
+
+// "curve 3 \"rim\""
+std::string title_of(const std::string& what, int index, const std::string& name);
+
+}  // namespace patchproof

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: Apache-2.0
+// Curves and patches in one view: the plane z = 0 from above, or space from the front, right and above.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/drawing.h"
+#include "io/svg_page.h"
+#include "io/svg_view.h"
+#include "patchproof/spline/bernstein.h"
+
+namespace patchproof {
+namespace {
+
+constexpr double kMargin = 44;
+constexpr int kIsolines = 4;              // at most so many intervals between isoparametric lines in each span
+constexpr std::size_t kMostLabels = 300;  // knots are labelled in pictures of one or two curves with few of them
+
+// The step of 1, 2 or 5 times a power of ten that cuts the extent into at most `most` parts.
+double round_step(double extent, int most) {
+  double step = std::pow(10, std::floor(std::log10(extent / most)));
+  for (const double factor : {2.0, 2.5, 2.0})
+    if (extent / step > most) step *= factor;
+  return step;
+}
+
+class Scene {
+ public:
+  Scene(const Drawing& drawing, const PlotOptions& options)
+      : drawing_(drawing), show_polygons_(options.control.value_or(true)), plane_(is_plane(drawing)), view_(plane_) {
+    title_ = options.title;
+    describe();
+    include_everything();
+  }
+
+  std::string draw() {
+    const double left = plane_ ? kMargin + 12 : kMargin, top = Page::top(title_, subtitle_) + 18;
+    const double used = view_.fit(left, kPageWidth - left - kMargin, top);
+    const double bottom = top + used + 14;
+    const double axis_room = plane_ ? 24 : 0, legend_room = 34;
+    Page page(bottom + axis_room + legend_room, title_, subtitle_);
+    pugi::xml_node root = page.root();
+    if (plane_) axes(root, left - 14, kPageWidth - kMargin + 14, top - 14, bottom);
+    patches(root);
+    for (const PatchDrawing& patch : drawing_.patches) net(root, patch);
+    pugi::xml_node under = add(root, "g", {{"class", "control"}}), over = add(root, "g", {{"class", "curves"}});
+    Labels labels(add(root, "g", {{"class", "labels"}}), 4, top - 16, kPageWidth - 4, bottom + 2);
+    for (const CurveDrawing& curve : drawing_.curves)
+      if (has_labels()) reserve(labels, curve);
+    for (std::size_t i = 0; i < drawing_.curves.size(); ++i) {
+      if (show_polygons_) polygon(under, drawing_.curves[i].controls);
+      paths(over, drawing_.curves[i], i);
+    }
+    for (std::size_t i = 0; i < drawing_.curves.size(); ++i) marks(over, labels, drawing_.curves[i], i);
+    legend(root, bottom + axis_room + 20);
+    if (!plane_) triad(root, bottom + 4);
+    return page.text();
+  }
+
+ private:
+  static bool is_plane(const Drawing& drawing) {
+    const auto flat = [](const Point3& p) { return p[2] == 0; };
+    for (const CurveDrawing& c : drawing.curves)
+      if (!c.is_plane && !std::all_of(c.controls.begin(), c.controls.end(), [&](const auto& p) { return flat(p.at); }))
+        return false;
+    for (const PatchDrawing& p : drawing.patches)
+      for (const auto& piece : p.pieces)
+        if (!std::all_of(piece.mesh.vertices.begin(), piece.mesh.vertices.end(), flat)) return false;
+    return true;
+  }
+
+  void describe() {
+    const std::size_t curves = drawing_.curves.size(), patches = drawing_.patches.size();
+    if (curves == 1 && patches == 0) {
+      const CurveDrawing& c = drawing_.curves[0];
+      std::size_t spans = 0;
+      for (const auto& component : c.components) spans += component.segments.size();
+      subtitle_ =
+          fmt::format("{}: {}degree {}, {} control points, {} span{}", c.name, c.is_rational ? "rational, " : "",
+                      c.degree, c.controls.size(), spans, spans == 1 ? "" : "s");
+    } else if (patches == 1 && curves == 0) {
+      const PatchDrawing& p = drawing_.patches[0];
+      subtitle_ = fmt::format("{}: {}degree {} × {}, {} × {} control points", p.name, p.is_rational ? "rational, " : "",
+                              p.degree[0], p.degree[1], p.count[0], p.count[1]);
+    } else {
+      if (curves > 0) subtitle_ += fmt::format("{} curve{}", curves, curves == 1 ? "" : "s");
+      if (patches > 0)
+        subtitle_ += fmt::format("{}{} patch{}", curves > 0 ? ", " : "", patches, patches == 1 ? "" : "es");
+    }
+  }
+
+  void include_everything() {
+    for (const CurveDrawing& c : drawing_.curves) {
+      for (const auto& component : c.components)
+        for (const auto& segment : component.segments)
+          for (const Point3& p : segment) view_.include(p);
+      for (const auto& component : c.components)
+        for (const auto& mark : component.marks) view_.include(mark.at);
+      if (show_polygons_) include(c.controls);
+    }
+    for (const PatchDrawing& p : drawing_.patches) {
+      for (const auto& piece : p.pieces)
+        for (const Point3& v : piece.mesh.vertices) view_.include(v);
+      include(p.controls);
+    }
+  }
+  void include(const std::vector<DrawnControl>& controls) {
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+      if (!controls[i].is_vector) view_.include(controls[i].at);
+      if (controls[i].is_vector) view_.include(foot(controls, i) + controls[i].at);
+    }
+  }
+  // Where a control vector is drawn: at the point before it, else at the one behind it, else at the origin.
+  static Point3 foot(const std::vector<DrawnControl>& controls, std::size_t i) {
+    for (std::size_t k = i; k-- > 0;)
+      if (!controls[k].is_vector) return controls[k].at;
+    for (std::size_t k = i + 1; k < controls.size(); ++k)
+      if (!controls[k].is_vector) return controls[k].at;
+    return {};
+  }
+
+  std::vector<PagePoint> places(const std::vector<Point3>& points, std::size_t from = 0) const {
+    std::vector<PagePoint> out;
+    for (std::size_t i = from; i < points.size(); ++i) out.push_back(view_.place(points[i]));
+    return out;
+  }
+
+  void axes(pugi::xml_node root, double left, double right, double top, double bottom) {
+    pugi::xml_node group = add(root, "g", {{"class", "axes"}, {"stroke", kFaint}, {"stroke-width", "0.8"}});
+    add(group, "path", {{"d", command('M', {{left, top}}) + command('L', {{left, bottom}, {right, bottom}})}});
+    const double scale = view_.page_units_per_unit();
+    if (!(scale > 0)) return;
+    const double step = round_step((right - left) / scale, 9);
+    const PagePoint corner = view_.place({{view_.low()[0], view_.low()[1], 0}});
+    for (const int axis : {0, 1}) {
+      const double from =
+          axis == 0 ? view_.low()[0] + (left - corner.x) / scale : view_.low()[1] + (corner.y - bottom) / scale;
+      const double to =
+          axis == 0 ? view_.low()[0] + (right - corner.x) / scale : view_.low()[1] + (corner.y - top) / scale;
+      for (double k = std::ceil(from / step); k <= std::floor(to / step) && std::abs(k) < 1e15; ++k) {
+        Point3 at{{view_.low()[0], view_.low()[1], 0}};
+        at[axis] = k * step;
+        const PagePoint p = view_.place(at);
+        const std::string text = fmt::format("{:.6g}", k * step == 0 ? 0 : k * step);
+        const bool along_x = axis == 0;
+        add(group, "path",
+            {{"d", along_x ? command('M', {{p.x, top}}) + command('L', {{p.x, bottom}})
+                           : command('M', {{left, p.y}}) + command('L', {{right, p.y}})},
+             {"opacity", "0.22"}});
+        pugi::xml_node label = along_x ? add_text(group, {p.x, bottom + 15}, text, 11.5, kInk, Anchor::middle)
+                                       : add_text(group, {left - 6, p.y + 4}, text, 11.5, kInk, Anchor::end);
+        label.append_attribute("stroke") = "none";
+      }
+    }
+  }
+
+  // ---- curves ---------------------------------------------------------------------------------------------------------
+
+  bool has_labels() const {
+    std::size_t marks = 0;
+    for (const CurveDrawing& curve : drawing_.curves)
+      for (const auto& component : curve.components) marks += component.marks.size();
+    return drawing_.curves.size() <= 2 && marks <= kMostLabels;
+  }
+
+  // No label on a curve or on a control point.
+  void reserve(Labels& labels, const CurveDrawing& curve) const {
+    for (const auto& component : curve.components)
+      for (std::size_t s = 0; s < component.segments.size(); ++s) {
+        std::vector<Point3> line = component.segments[s];
+        if (component.exact[s]) {
+          line.clear();
+          for (int k = 0; k <= 16; ++k) line.push_back(de_casteljau(component.segments[s], k / 16.0));
+        }
+        for (std::size_t k = 1; k < line.size(); ++k)
+          labels.reserve(view_.place(line[k - 1]), view_.place(line[k]), 2.5);
+      }
+    if (!show_polygons_) return;
+    for (const DrawnControl& c : curve.controls)
+      if (!c.is_vector) labels.reserve(view_.place(c.at), 5);
+  }
+
+  void polygon(pugi::xml_node parent, const std::vector<DrawnControl>& controls) const {
+    pugi::xml_node group = add(parent, "g", {{"stroke", kFaint}, {"stroke-width", "1.1"}});
+    std::string lines;
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+      if (controls[i].is_vector) continue;
+      const bool continues = i > 0 && !controls[i - 1].is_vector;
+      lines += command(continues ? 'L' : 'M', {view_.place(controls[i].at)});
+    }
+    add(group, "path", {{"d", lines}, {"class", "polygon"}, {"stroke-dasharray", "5 3"}});
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+      if (controls[i].is_vector) {
+        arrow(group, view_.place(foot(controls, i)), view_.place(foot(controls, i) + controls[i].at));
+        continue;
+      }
+      const PagePoint p = view_.place(controls[i].at);
+      add(group, "circle", {{"cx", page_number(p.x)}, {"cy", page_number(p.y)}, {"r", "3.2"}, {"stroke-width", "1.3"}});
+    }
+  }
+
+  static void arrow(pugi::xml_node parent, const PagePoint& from, const PagePoint& to) {
+    const double x = to.x - from.x, y = to.y - from.y, length = std::hypot(x, y);
+    if (!(length > 0)) return;
+    const double c = x / length, s = y / length, head = std::min(9.0, length);
+    add(parent, "path",
+        {{"class", "vector"},
+         {"stroke", kAccent},
+         {"stroke-width", "1.5"},
+         {"d", command('M', {from}) + command('L', {to}) +
+                   command('M', {{to.x - head * (c - 0.45 * s), to.y - head * (s + 0.45 * c)}}) +
+                   command('L', {to, {to.x - head * (c + 0.45 * s), to.y - head * (s - 0.45 * c)}})}});
+  }
+
+  void paths(pugi::xml_node parent, const CurveDrawing& curve, std::size_t index) const {
+    for (const auto& component : curve.components) {
+      std::string d = command('M', {view_.place(component.segments[0][0])});
+      for (std::size_t s = 0; s < component.segments.size(); ++s) {
+        const std::vector<PagePoint> rest = places(component.segments[s], 1);
+        const char letter = !component.exact[s] || rest.size() == 1 ? 'L' : rest.size() == 2 ? 'Q' : 'C';
+        d += command(letter, rest);
+      }
+      add(parent, "path", {{"class", "curve"}, {"d", d}, {"stroke", line_colour(index)}, {"stroke-width", "2.4"}});
+    }
+  }
+
+  // A short line across the curve at each break; a square where the curve has no direction.
+  void marks(pugi::xml_node parent, Labels& labels, const CurveDrawing& curve, std::size_t index) const {
+    pugi::xml_node group =
+        add(parent, "g", {{"class", "knots"}, {"stroke", line_colour(index)}, {"stroke-width", "1.6"}});
+    for (const auto& component : curve.components)
+      for (const auto& mark : component.marks) {
+        const PagePoint p = view_.place(mark.at), a = view_.place(mark.before), b = view_.place(mark.after);
+        const double length = std::hypot(b.x - a.x, b.y - a.y), r = 6;
+        if (length > 0.01) {
+          const double x = -(b.y - a.y) / length * r, y = (b.x - a.x) / length * r;
+          add(group, "path", {{"d", command('M', {{p.x - x, p.y - y}}) + command('L', {{p.x + x, p.y + y}})}});
+        } else {
+          add(group, "path",
+              {{"d", command('M', {{p.x - 3, p.y - 3}}) +
+                         command('L', {{p.x + 3, p.y - 3}, {p.x + 3, p.y + 3}, {p.x - 3, p.y + 3}}) + "Z"}});
+        }
+        if (has_labels()) labels.put_near(p, 9, mark.label, 11, line_colour(index));
+      }
+  }
+
+  // ---- patches --------------------------------------------------------------------------------------------------------
+
+  struct Facet {
+    double depth;
+    std::string path, colour;
+    std::string strong, faint;  // its edges that are lines of the knots, and other isoparametric lines
+  };
+
+  void patches(pugi::xml_node root) const {
+    std::vector<Facet> facets;
+    for (const PatchDrawing& patch : drawing_.patches)
+      for (const auto& piece : patch.pieces) collect(facets, patch, piece);
+    std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.depth < b.depth; });
+    if (facets.empty()) return;
+    pugi::xml_node group = add(root, "g", {{"class", "patches"}, {"stroke-width", "0.6"}});
+    for (const Facet& f : facets) {
+      // The stroke of the fill's colour hides the seams between neighbours.
+      add(group, "path", {{"class", "facet"}, {"d", f.path}, {"fill", f.colour}, {"stroke", f.colour}});
+      if (!f.faint.empty()) add(group, "path", {{"d", f.faint}, {"stroke", "#33506e"}, {"opacity", "0.4"}});
+      if (!f.strong.empty()) add(group, "path", {{"d", f.strong}, {"stroke", "#1f3247"}, {"stroke-width", "1.1"}});
+    }
+  }
+
+  void collect(std::vector<Facet>& facets, const PatchDrawing& patch, const Tessellation<2>& piece) const {
+    const auto& mesh = piece.mesh;
+    std::size_t columns = 1;  // vertices along u
+    while (columns < piece.parameters.size() && piece.parameters[columns][1] == piece.parameters[0][1] &&
+           piece.parameters[columns][0] != piece.parameters[0][0])
+      ++columns;
+    const auto step = [](int cells) {
+      int intervals = std::min(kIsolines, cells);
+      while (cells % intervals != 0) --intervals;
+      return cells / intervals;
+    };
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+      const auto v = mesh.cell(c);
+      const std::array<Point3, 4> p{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[3]], mesh.vertices[v[2]]};
+      Facet f;
+      f.depth = view_.depth(0.25 * (p[0] + p[1] + p[2] + p[3]));
+      const double light = view_.brightness(cross(p[2] - p[0], p[3] - p[1]));
+      f.path = command('M', {view_.place(p[0])}) +
+               command('L', {view_.place(p[1]), view_.place(p[2]), view_.place(p[3])}) + "Z";
+      f.colour = shade(light);
+      const int i = static_cast<int>(c % (columns - 1)), j = static_cast<int>(c / (columns - 1));
+      const std::array<std::array<int, 4>, 4> edges{{{0, 1, 1, j}, {3, 2, 1, j + 1}, {0, 3, 0, i}, {1, 2, 0, i + 1}}};
+      for (const auto& [a, b, direction, line] : edges) {
+        const std::string edge = command('M', {view_.place(p[a])}) + command('L', {view_.place(p[b])});
+        if (line % patch.cells[direction] == 0)
+          f.strong += edge;
+        else if (line % step(patch.cells[direction]) == 0)
+          f.faint += edge;
+      }
+      facets.push_back(std::move(f));
+    }
+  }
+
+  static std::string shade(double light) {
+    const double s = std::round((0.12 + 0.88 * light) * 48) / 48;
+    const auto mix = [&](int dark, int bright) { return static_cast<int>(std::lround(dark + s * (bright - dark))); };
+    return fmt::format("#{:02x}{:02x}{:02x}", mix(58, 214), mix(84, 228), mix(114, 242));
+  }
+
+  void net(pugi::xml_node root, const PatchDrawing& patch) const {
+    if (patch.controls.empty()) return;
+    pugi::xml_node group = add(root, "g", {{"class", "net"}, {"stroke", kAccent}, {"stroke-width", "0.9"}});
+    const auto at = [&](int i, int j) -> const DrawnControl& { return patch.controls[i * patch.count[1] + j]; };
+    std::string lines;
+    for (int i = 0; i < patch.count[0]; ++i)
+      for (int j = 0; j < patch.count[1]; ++j) {
+        if (at(i, j).is_vector) continue;
+        const PagePoint p = view_.place(at(i, j).at);
+        for (const auto& [k, l] : {std::array{i + 1, j}, std::array{i, j + 1}})
+          if (k < patch.count[0] && l < patch.count[1] && !at(k, l).is_vector)
+            lines += command('M', {p}) + command('L', {view_.place(at(k, l).at)});
+        add(group, "circle", {{"cx", page_number(p.x)}, {"cy", page_number(p.y)}, {"r", "2.2"}, {"fill", kAccent}});
+      }
+    if (!lines.empty()) add(group, "path", {{"d", lines}, {"opacity", "0.8"}});
+  }
+
+  // ---- what the signs mean --------------------------------------------------------------------------------------------
+
+  void legend(pugi::xml_node root, double y) const {
+    pugi::xml_node group = add(root, "g", {{"class", "legend"}});
+    double x = 24;
+    const auto entry = [&](const std::string& text, auto sign) {
+      const double width = 26 + text_width(text, 11.5) + 18;
+      if (x + width > kPageWidth - 24) return;
+      sign(x, y - 4);
+      add_text(group, {x + 26, y}, text, 11.5, kInk);
+      x += width;
+    };
+    const auto line = [&](const std::string& colour, const char* width, const char* dashes) {
+      return [&group, colour, width, dashes](double left, double middle) {
+        pugi::xml_node path = add(group, "path",
+                                  {{"d", command('M', {{left, middle}}) + command('L', {{left + 20, middle}})},
+                                   {"stroke", colour},
+                                   {"stroke-width", width}});
+        if (dashes[0] != 0) path.append_attribute("stroke-dasharray") = dashes;
+      };
+    };
+    for (std::size_t i = 0; i < drawing_.curves.size() && i < 8; ++i)
+      entry(shortened(drawing_.curves[i].name, 11.5, 130), line(line_colour(i), "2.4", ""));
+    if (!drawing_.curves.empty()) {
+      if (show_polygons_) entry("control polygon", line(kFaint, "1.1", "5 3"));
+      entry("knot", [&](double left, double middle) {
+        add(group, "path",
+            {{"d", command('M', {{left + 10, middle - 6}}) + command('L', {{left + 10, middle + 6}})},
+             {"stroke", kInk},
+             {"stroke-width", "1.6"}});
+      });
+    }
+    bool vectors = false;
+    for (const CurveDrawing& c : drawing_.curves)
+      for (const DrawnControl& p : c.controls) vectors = vectors || (show_polygons_ && p.is_vector);
+    if (vectors)
+      entry("control vector, weight 0", [&](double left, double middle) {
+        arrow(group, {left, middle}, {left + 20, middle});
+      });
+    if (!drawing_.patches.empty()) entry("knot lines", line("#4a6a8c", "1.3", ""));
+    for (const PatchDrawing& p : drawing_.patches)
+      if (!p.controls.empty()) {
+        entry("control net", line(kAccent, "0.9", ""));
+        break;
+      }
+  }
+
+  // The directions of the axes, at the right of the legend.
+  void triad(pugi::xml_node root, double y) const {
+    pugi::xml_node group = add(root, "g", {{"class", "triad"}});
+    const PagePoint origin{kPageWidth - 54, y};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = 24 * view_.right()[axis], up = 24 * view_.up()[axis];
+      const PagePoint tip{origin.x + x, origin.y - up};
+      add(group, "path",
+          {{"d", command('M', {origin}) + command('L', {tip})}, {"stroke", kInk}, {"stroke-width", "1.2"}});
+      add_text(group, {origin.x + 1.36 * x, origin.y - 1.36 * up + 4}, std::array{"x", "y", "z"}[axis], 11.5, kInk,
+               Anchor::middle);
+    }
+  }
+
+  const Drawing& drawing_;
+  bool show_polygons_, plane_;
+  View view_;
+  std::string title_, subtitle_;
+};
+
+}  // namespace
+
+std::string svg_scene(const Drawing& drawing, const PlotOptions& options) { return Scene(drawing, options).draw(); }
+
+}  // namespace patchproof
