@@ -119,6 +119,10 @@ Result<ExpandedConstruction<T>> expand_gordon(const Construction<T>& constructio
   const Controls<T>&along_u = construction.curves.at("along_u"), &along_v = construction.curves.at("along_v");
   if (is_rational(along_u) || is_rational(along_v))
     return Error{ErrorCode::unsupported, "", "a Gordon surface through rational curves is not made", ""};
+  const std::size_t most = std::max(along_u.size(), along_v.size());
+  if (most > kMaxDegree + 1)  // before a system of so many equations is solved
+    return Error{ErrorCode::bad_degree, "", fmt::format("the expanded patch would have a degree above {}", kMaxDegree),
+                 fmt::format("{} curves", most)};
   const CurveNetwork<T, 3> network{construction.parameters.at("u"), construction.parameters.at("v"),
                                    curve_maps<3>(along_u, 0), curve_maps<3>(along_v, 1)};
   return expanded(construction, gordon_surface(network), false,

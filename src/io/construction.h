@@ -31,7 +31,7 @@ struct ExpandedConstruction {
 };
 
 // A limit of the work: boxes between knots, times the square of the control points of each, times curves.
-inline constexpr long long kMaxExpansion = 20'000'000;
+inline constexpr long long kMaxExpansion = 4'000'000;
 
 // T: Rational or Quadratic.
 // ERRORS  those of coons_patch.h, transfinite.h and gordon_surface.h;  wrong_count: some of the four derivatives across;

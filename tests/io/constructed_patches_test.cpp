@@ -252,6 +252,12 @@ TEST(ConstructedPatches, SizesThatNobodyMeant) {
   }
   expect_error({{"transfinite", steep}}, ErrorCode::unsupported, "/transfinite",
                "1 x 1 spans of degree (64, 40), 41 curves");
+  Json dense = network();
+  for (int i = 2; i <= 3000; ++i) {
+    dense["u"].push_back(i);
+    dense["along_v"].push_back(straight({i, 0, 0}, {i, 1, 0}));
+  }
+  expect_error({{"gordon", dense}}, ErrorCode::bad_degree, "/gordon", "3001 curves");
   const std::string huge = "2e301";
   expect_error({{"transfinite", changed(blend(),
                                         [&](Json& t) {
