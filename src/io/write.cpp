@@ -96,6 +96,9 @@ template <ExactField T>
 void curve(Buffer& out, const ModelCurve<T>& curve) {
   const KnotVector<T>& knots = curve.curve.knots();
   const std::vector<Vec<T, 4>>& points = curve.curve.points();
+  PATCHPROOF_REQUIRES(curve.dimension == 3 ||
+                          std::all_of(points.begin(), points.end(), [](const Vec<T, 4>& p) { return p[2] == T(0); }),
+                      "write_model_json: a curve in the plane has z = 0");
   const bool homogeneous = has_zero_weight(points);
   const int count = static_cast<int>(points.size());
   begin_spline(out, curve.name);
@@ -150,6 +153,7 @@ void section(Buffer& out, const char* key, const Elements& elements, Put put_ele
 
 template <ExactField T>
 std::string write_model_json(const Model<T>& model) {
+  PATCHPROOF_REQUIRES(model.solids.empty(), "write_model_json: the format has no solids");
   Buffer out;
   put(out, "{{\n  \"format\": \"patchproof-model\",\n  \"version\": 1");
   if (!model.units.empty()) put(out, ",\n  \"units\": {}", quoted(model.units));

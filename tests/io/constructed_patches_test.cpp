@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches of our JSON model that are made from curves: what they contain, and what is wrong with bad ones.
+// Law 5 of include/patchproof/io/read.h: patches of our JSON model that are made from curves. What they contain, and what is
+// wrong with bad ones.
 #include <functional>
 #include <map>
 
@@ -67,7 +68,7 @@ Point project_bezier(const std::vector<Vec<Rational, 4>>& points, const Rational
   return evaluate_rational(BsplineCurve<Rational, 4>::bezier(points), t);
 }
 
-TEST(ConstructedPatches, NotesSayWhatWasMade) {
+TEST(ConstructedPatches, Law5_NotesSayWhatWasMade) {
   EXPECT_EQ(file_of("good_constructions.json").notes,
             (std::vector<std::string>{
                 "patch 0: bilinearly blended Coons patch, expanded exactly to degree (2, 1)",
@@ -81,7 +82,7 @@ TEST(ConstructedPatches, NotesSayWhatWasMade) {
             }));
 }
 
-TEST(ConstructedPatches, CoonsPatchesContainTheirBoundaries) {
+TEST(ConstructedPatches, Law5_CoonsPatchesContainTheirBoundaries) {
   for (const std::string t : {"0", "1/7", "1/3", "5/6", "1"}) {
     EXPECT_EQ(at("a fan", t, "1"), point("1", "5", "1/2"));
     const Rational x = exact(t), one(1);
@@ -94,7 +95,7 @@ TEST(ConstructedPatches, CoonsPatchesContainTheirBoundaries) {
   EXPECT_EQ(at("a fan", "1", "1/3"), point("3", "3", "3"));
 }
 
-TEST(ConstructedPatches, BicubicPatchesHaveTheirDerivatives) {
+TEST(ConstructedPatches, Law5_BicubicPatchesHaveTheirDerivatives) {
   const auto across = [](const std::string& u, const std::string& v) {
     return rational_derivatives(patch("bicubically").surface, exact(u), exact(v), 1, 1);
   };
@@ -106,7 +107,7 @@ TEST(ConstructedPatches, BicubicPatchesHaveTheirDerivatives) {
 }
 
 // Boundaries on the unit cylinder with other factors in their weights: the surface is that cylinder.
-TEST(ConstructedPatches, RationalCoonsPatches) {
+TEST(ConstructedPatches, Law5_RationalCoonsPatches) {
   EXPECT_TRUE(patch("rational").is_rational);
   for (const std::string u : {"0", "1/5", "1/2", "1"}) {
     const Point p = at("rational", u, "1/3");
@@ -115,7 +116,7 @@ TEST(ConstructedPatches, RationalCoonsPatches) {
   }
 }
 
-TEST(ConstructedPatches, TransfinitePatchesBlendHomogeneousPoints) {
+TEST(ConstructedPatches, Law5_TransfinitePatchesBlendHomogeneousPoints) {
   EXPECT_EQ(at("curves and points", "0", "1/2"), point("0", "0", "0"));
   EXPECT_EQ(at("curves and points", "2", "1/4"), point("3", "1", "0"));
   // At u = 1 the second and the third control weigh 1/2 each; at v = 1/2 they are (1, 1/2, 0; 1) and (1.5, 0.75, 1/8; 3/4).
@@ -123,7 +124,7 @@ TEST(ConstructedPatches, TransfinitePatchesBlendHomogeneousPoints) {
             (Vec<Rational, 4>{{exact("5/4"), exact("5/8"), exact("1/16"), exact("7/8")}}));
 }
 
-TEST(ConstructedPatches, GordonSurfacesContainTheirNetwork) {
+TEST(ConstructedPatches, Law5_GordonSurfacesContainTheirNetwork) {
   EXPECT_EQ(at("through a network", "1/2", "0"), point("1/2", "0", "1/2"));
   EXPECT_EQ(at("through a network", "1/4", "0"), point("1/4", "0", "3/8"));
   EXPECT_EQ(at("through a network", "1/4", "1"), point("1/4", "1", "-3/8"));

@@ -149,7 +149,7 @@ TEST(Plot, Law1_PathsAreExactBezierCommands) {
 }
 
 TEST(Plot, Law1_RationalPiecesArePolylinesOnTheCurve) {
-  const auto document = svg_of(model_of({half_circle()}), {"", false, {}, 40, {}, {}});
+  const auto document = svg_of(model_of({half_circle()}), {"", false, {}, 40, {}, {}, {}});
   const auto paths = of_class(document, "curve");
   ASSERT_EQ(paths.size(), 1u);
   const std::vector<double> n = path_numbers(paths[0]);
@@ -176,9 +176,9 @@ TEST(Plot, Law2_EverythingIsInView) {
       model_of({curve_of("flat", 1, {0, 0, 1, 1}, {at(-1000000, 5), at(1000000, 5)})}),
       model_of({curve_of("in space", 1, {0, 0, 1, 1}, {at(0, 0, 0), at(1, 2, 3)}, 3)})};
   for (const auto& model : models) {
-    expect_all_in_view(svg_of(model, {"A title", false, true, {}, {}, {}}));
-    expect_all_in_view(svg_of(model, {"", false, false, 3, {}, {}}));
-    expect_all_in_view(svg_of(model, {"A title", true, {}, {}, {}, {}}));
+    expect_all_in_view(svg_of(model, {"A title", false, true, {}, {}, {}, {}}));
+    expect_all_in_view(svg_of(model, {"", false, false, 3, {}, {}, {}}));
+    expect_all_in_view(svg_of(model, {"A title", true, {}, {}, {}, {}, {}}));
   }
 }
 
@@ -203,7 +203,7 @@ TEST(Plot, Law3_TheSameBytes) {
 }
 
 TEST(Plot, Law4_OneLineForEachFunctionAndComponent) {
-  const PlotOptions basis{"", true, {}, {}, {}, {}};
+  const PlotOptions basis{"", true, {}, {}, {}, {}, {}};
   // 7 functions; none crosses the jump.
   auto document = svg_of(model_of({jumping()}), basis);
   EXPECT_EQ(of_class(document, "basis").size(), 1u);
@@ -224,7 +224,7 @@ TEST(Plot, Law4_OneLineForEachFunctionAndComponent) {
 }
 
 TEST(Plot, Law4_TheLinesAreTheFunctions) {
-  const auto document = svg_of(model_of({cubic()}), {"", true, {}, 4, {}, {}});
+  const auto document = svg_of(model_of({cubic()}), {"", true, {}, 4, {}, {}, {}});
   const auto lines = of_class(document, "function");
   ASSERT_EQ(lines.size(), 4u);
   const double bottom = path_numbers(lines[0]).back(), top = path_numbers(lines[0])[1];
@@ -241,7 +241,7 @@ TEST(Plot, Law4_TheLinesAreTheFunctions) {
 
 TEST(Plot, Law5_MeshFilesHoldThePartsInOrder) {
   const auto model = model_of({jumping()}, {saddle()});
-  const std::string obj = plot(model, PlotFormat::obj, {"", false, {}, 2, {}, {}}).value();
+  const std::string obj = plot(model, PlotFormat::obj, {"", false, {}, 2, {}, {}, {}}).value();
   std::vector<std::string> names;
   const std::regex object("\no (.*)\n");
   for (std::sregex_iterator it(obj.begin(), obj.end(), object), end; it != end; ++it) names.push_back((*it)[1]);
@@ -250,24 +250,50 @@ TEST(Plot, Law5_MeshFilesHoldThePartsInOrder) {
   EXPECT_EQ(std::distance(std::sregex_iterator(obj.begin(), obj.end(), face), std::sregex_iterator()), 16);
   const std::string glb = plot(model, PlotFormat::glb).value();
   EXPECT_EQ(glb.substr(0, 4), "glTF");
-  const std::string stl = plot(model, PlotFormat::stl, {"", false, {}, 3, {}, {}}).value();
+  const std::string stl = plot(model, PlotFormat::stl, {"", false, {}, 3, {}, {}, {}}).value();
   EXPECT_EQ(stl.size(), 84u + 50 * 2 * 36);
   pugi::xml_document vtu;
-  ASSERT_TRUE(vtu.load_string(plot(model, PlotFormat::vtu, {"", false, {}, {}, 0, {}}).value().c_str()));
+  ASSERT_TRUE(vtu.load_string(plot(model, PlotFormat::vtu, {"", false, {}, {}, 0, {}, {}}).value().c_str()));
   EXPECT_EQ(vtu.child("VTKFile").child("UnstructuredGrid").child("Piece").attribute("NumberOfCells").as_int(), 3 * 16);
 }
 
 TEST(Plot, ChoicesAndControl) {
   const auto model = model_of({jumping(), cubic()}, {saddle()});
-  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, {}, 1, {}}), "curve").size(), 1u);
-  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, {}, 1, {}}), "facet").size(), 0u);
-  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, 3, {}, 0}), "facet").size(), 36u);
-  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, 3, {}, 0}), "curve").size(), 0u);
-  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, 3, 0, 0}), "curve").size(), 2u);
+  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, {}, 1, {}, {}}), "curve").size(), 1u);
+  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, {}, 1, {}, {}}), "facet").size(), 0u);
+  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, 3, {}, 0, {}}), "facet").size(), 36u);
+  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, 3, {}, 0, {}}), "curve").size(), 0u);
+  EXPECT_EQ(of_class(svg_of(model, {"", false, {}, 3, 0, 0, {}}), "curve").size(), 2u);
   EXPECT_EQ(of_class(svg_of(model), "polygon").size(), 2u);
   EXPECT_EQ(of_class(svg_of(model), "net").size(), 0u);
-  EXPECT_EQ(of_class(svg_of(model, {"", false, false, {}, {}, {}}), "polygon").size(), 0u);
-  EXPECT_EQ(of_class(svg_of(model, {"", false, true, {}, {}, {}}), "net").size(), 1u);
+  EXPECT_EQ(of_class(svg_of(model, {"", false, false, {}, {}, {}, {}}), "polygon").size(), 0u);
+  EXPECT_EQ(of_class(svg_of(model, {"", false, true, {}, {}, {}, {}}), "net").size(), 1u);
+}
+
+TEST(Plot, Law5_Solids) {
+  using Map = TransfiniteMap<Rational, 3, 4>;
+  // A unit cube, twice as long, with a jump along u at 1.
+  const auto knots = KnotVector<Rational>::make(1, numbers({0, 0, 1, 1, 2, 2})).value();
+  std::vector<Map> along_u;
+  for (const int x : {0, 1, 3, 4}) {
+    const auto bar = [&](int y) { return Map::bezier(2, {Map(at(x, y, 0)), Map(at(x, y, 1))}).value(); };
+    along_u.push_back(Map::bezier(1, {bar(0), bar(1)}).value());
+  }
+  Model<Rational> model = model_of({cubic()}, {saddle()});
+  model.solids.push_back({"bar", Map::blend(0, knots, along_u).value()});
+  const PlotOptions only{"", false, {}, 2, {}, {}, 0};
+  const auto document = svg_of(model, only);
+  expect_all_in_view(document);
+  EXPECT_EQ(of_class(document, "facet").size(), 2u * 6 * 4);
+  EXPECT_EQ(of_class(svg_of(model), "curve").size(), 1u);
+  pugi::xml_document vtu;
+  ASSERT_TRUE(vtu.load_string(plot(model, PlotFormat::vtu, only).value().c_str()));
+  const auto piece = vtu.child("VTKFile").child("UnstructuredGrid").child("Piece");
+  EXPECT_EQ(piece.attribute("NumberOfCells").as_int(), 2 * 8);
+  EXPECT_EQ(piece.attribute("NumberOfPoints").as_int(), 2 * 27);
+  EXPECT_EQ(plot(model, PlotFormat::stl, only).value().size(), 84u + 50 * 2 * 24 * 2);
+  EXPECT_FALSE(plot(model, PlotFormat::svg, {"", true, {}, {}, {}, {}, 0}).has_value());
+  EXPECT_EQ(plot(model, PlotFormat::svg, {"", false, {}, {}, {}, {}, 1}).error().code, ErrorCode::bad_reference);
 }
 
 TEST(Plot, FacetsStandFromBackToFront) {
@@ -278,7 +304,7 @@ TEST(Plot, FacetsStandFromBackToFront) {
         name, BsplinePatch<Rational, 4>(knots, knots, {at(0, y, 0), at(0, y, 9), at(9, y, 0), at(9, y, 9)}), false};
   };
   const auto first_facet = [](const Model<Rational>& m) {
-    return std::string(of_class(svg_of(m, {"", false, {}, 1, {}, {}}), "facet")[0].attribute("d").as_string());
+    return std::string(of_class(svg_of(m, {"", false, {}, 1, {}, {}, {}}), "facet")[0].attribute("d").as_string());
   };
   EXPECT_EQ(first_facet(model_of({}, {wall("near", 0), wall("far", 5)})),
             first_facet(model_of({}, {wall("far", 5), wall("near", 0)})));
@@ -293,15 +319,15 @@ TEST(Plot, Errors) {
   };
   EXPECT_EQ(code(model_of({}), PlotFormat::svg, {}), ErrorCode::usage);
   EXPECT_EQ(code(model_of({jumping()}), PlotFormat::stl, {}), ErrorCode::usage);
-  EXPECT_EQ(code(model, PlotFormat::svg, {"", false, {}, {}, 1, {}}), ErrorCode::bad_reference);
-  EXPECT_EQ(code(model, PlotFormat::obj, {"", false, {}, {}, {}, 1}), ErrorCode::bad_reference);
-  EXPECT_EQ(code(model, PlotFormat::svg, {"", false, {}, {}, -1, {}}), ErrorCode::bad_reference);
-  EXPECT_EQ(code(model_of({jumping()}), PlotFormat::svg, {"", false, {}, {}, {}, 0}), ErrorCode::bad_reference);
-  EXPECT_EQ(code(model, PlotFormat::obj, {"", true, {}, {}, {}, {}}), ErrorCode::usage);
-  EXPECT_EQ(code(model, PlotFormat::svg, {"", false, {}, 0, {}, {}}), ErrorCode::usage);
-  EXPECT_EQ(code(model, PlotFormat::svg, {"", false, {}, 2000000000, {}, {}}), ErrorCode::usage);
-  EXPECT_EQ(code(model, PlotFormat::obj, {"", false, {}, 2000000000, {}, {}}), ErrorCode::usage);
-  EXPECT_EQ(code(model, PlotFormat::svg, {"", true, {}, 2000000000, {}, {}}), ErrorCode::usage);
+  EXPECT_EQ(code(model, PlotFormat::svg, {"", false, {}, {}, 1, {}, {}}), ErrorCode::bad_reference);
+  EXPECT_EQ(code(model, PlotFormat::obj, {"", false, {}, {}, {}, 1, {}}), ErrorCode::bad_reference);
+  EXPECT_EQ(code(model, PlotFormat::svg, {"", false, {}, {}, -1, {}, {}}), ErrorCode::bad_reference);
+  EXPECT_EQ(code(model_of({jumping()}), PlotFormat::svg, {"", false, {}, {}, {}, 0, {}}), ErrorCode::bad_reference);
+  EXPECT_EQ(code(model, PlotFormat::obj, {"", true, {}, {}, {}, {}, {}}), ErrorCode::usage);
+  EXPECT_EQ(code(model, PlotFormat::svg, {"", false, {}, 0, {}, {}, {}}), ErrorCode::usage);
+  EXPECT_EQ(code(model, PlotFormat::svg, {"", false, {}, 2000000000, {}, {}, {}}), ErrorCode::usage);
+  EXPECT_EQ(code(model, PlotFormat::obj, {"", false, {}, 2000000000, {}, {}, {}}), ErrorCode::usage);
+  EXPECT_EQ(code(model, PlotFormat::svg, {"", true, {}, 2000000000, {}, {}, {}}), ErrorCode::usage);
   auto vanishing = half_circle();
   vanishing.curve =
       BsplineCurve<Rational, 4>(vanishing.curve.knots(), std::vector<Point>(3, {{q(1), q(1), q(0), q(0)}}));
@@ -324,7 +350,7 @@ TEST(Plot, NumbersWithARoot) {
                                   {{{one, zero, zero, one}}, {{w, w, zero, w}}, {{zero, one, zero, one}}}),
        true, 2});
   EXPECT_TRUE(plot(model, PlotFormat::svg).has_value());
-  EXPECT_TRUE(plot(model, PlotFormat::svg, {"", true, {}, {}, {}, {}}).has_value());
+  EXPECT_TRUE(plot(model, PlotFormat::svg, {"", true, {}, {}, {}, {}, {}}).has_value());
   EXPECT_TRUE(plot(model, PlotFormat::vtu).has_value());
 }
 

@@ -145,6 +145,15 @@ TEST(WriteModel, CurvesOnly) {
   EXPECT_NE(text.find("\"control_points\": [[0, 0], [1, 1], [2, 0]]"), std::string::npos) << text;
 }
 
+TEST(WriteModel, RequiresPlaneCurvesInThePlane) {
+  Model<Rational> model;
+  model.curves.push_back(
+      {"", BsplineCurve<Rational, 4>::bezier({{{Rational(0), Rational(0), Rational(1), Rational(1)}}}), false, 2});
+  EXPECT_THROW(write_model_json(model), contract_error);
+  model.curves[0].dimension = 3;
+  EXPECT_NO_THROW(write_model_json(model));
+}
+
 TEST(WriteModel, Law2_SameBytes) {
   RandomModel a(7), b(7);
   EXPECT_EQ(write_model_json(a.model<Rational>([&] { return a.number(); })),
