@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cases of cli_test.py: curves, and patches made from curves."""
+import json
+from fractions import Fraction
+
+from command import CUP, DATA, EXAMPLES, SPHERE, Command
+
+
+class Curves(Command):
+    TOOLBOX = EXAMPLES / "toolbox"
+
+    def values(self, *words):
+        return [row["value"] for row in json.loads(self.expect(0, "evaluate", *words, "--json", "-").stdout)["values"]]
+
+    def test_evaluate_names_and_values(self):
+        text = self.expect(0, "evaluate", self.TOOLBOX / "test01.json", "--at", "1/2", "--derivatives", 4).stdout.decode()
+        self.assertEqual([line.split() for line in text.splitlines()],
+                         [["C", "21/16", "11/16"], ["C'", "5/2", "3/2"], ["C''", "3", "-3"], ["C'''", "12", "-12"],
+                          ["C^(4)", "-72", "72"]])
+        document = json.loads(self.expect(0, "evaluate", DATA / "model/good_curves.json", "--curve", 1, "--at", "2",
+                                          "--derivatives", 1, "--json", "-").stdout)
+        self.assertEqual((document["curve"], document["at"]), (1, "2"))
+        self.assertEqual([row["dt"] for row in document["values"]], [0, 1])
+        self.assertEqual(document["values"][0]["value"], ["5/2", "1", "0"])
+
+    def test_evaluate_from_both_sides(self):
+        words = (self.TOOLBOX / "test12.json", "--curve", 2, "--at", "1")
+        self.assertEqual(self.values(*words, "--left"), [["1", "4"]])
+        self.assertEqual(self.values(*words), [["2", "3"]])
+
+    def test_evaluate_agrees_in_all_scalars(self):
+        for path, curve, at in ((self.TOOLBOX / "test08.json", 0, "10/3"), (self.TOOLBOX / "conics.json", 6, "0.7"),
+                                (self.TOOLBOX / "test13.json", 0, "2.2")):
+            exact, enclosure, rounded = (self.values(path, "--curve", curve, "--at", at, "--derivatives", 3, "--scalar", s)
+                                         for s in ("rational", "interval", "double"))
+            self.assertEqual(len(exact), 4)
+            for xs, intervals, doubles in zip(exact, enclosure, rounded):
+                self.assertEqual(len(xs), 2)
+                for x, interval, d in zip(xs, intervals, doubles):
+                    low, high = (Fraction(float(t)) for t in interval.strip("[]").split(", "))
+                    self.assertLess(high - low, max(1, abs(high)) * Fraction(1, 10**9))
+                    self.assertLess(abs(Fraction(float(d)) - low), max(1, abs(high)) * Fraction(1, 10**9))
+                    if "sqrt" not in x:
+                        self.assertTrue(low <= Fraction(x) <= high, f"{x} not in {interval}")
+
+    def test_evaluate_refuses(self):
+        both = DATA / "model/good_curves.json"
+        self.assertEqual(self.values(both, "--at", "0,0"), [["0", "1", "0"]])  # the patch
+        self.expect_refusal("evaluate", both, "--curve", 0, "--at", "2", names=["domain [0, 1]", "outside_domain"])
+        self.expect_refusal("evaluate", both, "--at", "2,0", names=["domain [0, 1]", "outside_domain"])
+        self.expect_refusal("evaluate", both, "--curve", 5, "--at", "0", names=["curves 0 to 4"])
+        self.expect_refusal("evaluate", both, "--curve", -1, "--at", "0", names=["curves 0 to 4"])
+        self.expect_refusal("evaluate", both, "--curve", 0, "--at", "0,0", names=["--at"])
+        self.expect_refusal("evaluate", self.TOOLBOX / "test08.json", "--at", "0", names=["curves 0 to 1", "--curve"])
+        self.expect_refusal("evaluate", self.TOOLBOX / "test01.json", "--patch", 0, "--at", "0,0", names=["no patches"])
+        self.expect_refusal("evaluate", CUP, "--curve", 0, "--at", "0", names=["no curves"])
+        self.assertIn(b"excludes", self.expect(2, "evaluate", both, "--curve", 0, "--patch", 0, "--at", "0").stderr)
+
+    def test_certify_needs_patches(self):
+        self.expect_refusal("certify", self.TOOLBOX / "test01.json", names=["test01.json", "no patches"])
+        out = self.dir / "report.json"
+        self.expect_refusal("certify", SPHERE, self.TOOLBOX / "test13.json", "--json", out, names=["test13.json"])
+        self.assertFalse(out.exists())
+
+    def test_convert_round_trip(self):
+        for path in sorted(self.TOOLBOX.glob("*.json")) + sorted(DATA.glob("*/good_*curve*")):
+            with self.subTest(path.name):
+                once, twice = self.dir / "once.json", self.dir / "twice.json"
+                self.expect(0, "convert", path, once)
+                self.expect(0, "convert", once, twice)
+                self.assertEqual(once.read_bytes(), twice.read_bytes())
+
+    def test_patches_made_from_curves_are_certified(self):
+        # The cylinder closes: one seam, and its three lines of double knots.
+        report = json.loads(self.expect(0, "certify", self.TOOLBOX / "test15.json", "--require", "C1", "--json", "-").stdout)
+        self.assertEqual(sorted(j["kind"] for j in report["joins"]), ["knot-line"] * 3 + ["seam"])
+        self.assertIn("expanded exactly", " ".join(report["input"]["notes"]))
