@@ -298,10 +298,10 @@ std::optional<Construction<T>> ModelBuilder<T>::construction(const RawConstructi
       controls.push_back({std::move(*read), spline.layout == JsonLayout::point});
     }
   }
-  for (const auto& [key, texts] : raw.parameters) {
-    std::vector<T>& values = out.parameters[key];
-    for (const std::string_view text : texts) {
-      const auto pointer = [&] { return fmt::format("{}/{}/{}", raw.pointer, key, values.size() - 1); };
+  for (const auto& list : raw.parameters) {
+    std::vector<T>& values = out.parameters[list.first];
+    for (const std::string_view text : list.second) {
+      const auto pointer = [&] { return fmt::format("{}/{}/{}", raw.pointer, list.first, values.size() - 1); };
       if (!number(text, pointer, values.emplace_back())) return std::nullopt;
     }
   }
