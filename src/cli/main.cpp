@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   add_evaluate(app, exit_code);
   add_info(app, exit_code);
   add_convert(app, exit_code);
+  add_plot(app, exit_code);
   add_validate(app, exit_code);
   try {
     app.parse(argc, argv);

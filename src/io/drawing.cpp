@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/mesh_parts.h"
+#include "patchproof/mesh/tessellate_transfinite.h"
 #include "patchproof/spline/bezier_extraction.h"
 
 namespace patchproof {
@@ -86,7 +87,8 @@ Result<CurveDrawing> draw_curve(const ModelCurve<T>& model, int index, int cells
 template <ExactField T>
 Result<PatchDrawing> draw_patch(const ModelPatch<T>& model, int index, int cells, bool control) {
   const BsplinePatch<T, 4>& s = model.surface;
-  PatchDrawing out{title_of("patch", index, model.name),
+  PatchDrawing out{false,
+                   title_of("patch", index, model.name),
                    {s.degree(Direction::u), s.degree(Direction::v)},
                    {cells, cells},
                    model.is_rational,
@@ -102,6 +104,52 @@ Result<PatchDrawing> draw_patch(const ModelPatch<T>& model, int index, int cells
     if (!detail::is_finite(out.controls.back().at))
       return Error{ErrorCode::bad_number, out.name, "a control point is no finite number in doubles", ""};
   }
+  return out;
+}
+
+// How many spans the six faces have together.
+template <ExactField T>
+std::size_t face_spans(const TransfiniteMap<T, 3, 4>& map) {
+  std::array<std::size_t, 3> n{};
+  for (std::size_t s = 0; s < 3; ++s) n[s] = breaks(map, s).size() - 1;
+  return 2 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]);
+}
+
+// The six faces of the grid: for each axis and end, the vertices with the other two indices running.
+void add_faces(std::vector<Tessellation<2>>& faces, const Tessellation<3>& solid) {
+  std::array<std::size_t, 3> count{1, 1, 1}, stride{1, 1, 1};
+  const auto& x = solid.parameters;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    stride[axis] = axis == 0 ? 1 : stride[axis - 1] * count[axis - 1];
+    while (count[axis] * stride[axis] < x.size() &&
+           x[count[axis] * stride[axis]][axis] > x[(count[axis] - 1) * stride[axis]][axis])
+      ++count[axis];
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const std::size_t end : {std::size_t{0}, count[axis] - 1}) {
+      const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
+      Tessellation<2> face{{CellKind::cuboid, 2, {}, {}}, {}, {}};
+      for (std::size_t j = 0; j < count[b]; ++j)
+        for (std::size_t i = 0; i < count[a]; ++i) {
+          const std::size_t v = end * stride[axis] + i * stride[a] + j * stride[b];
+          face.mesh.vertices.push_back(solid.mesh.vertices[v]);
+          face.parameters.push_back({{x[v][a], x[v][b]}});
+        }
+      const std::array shape{static_cast<int>(count[a]) - 1, static_cast<int>(count[b]) - 1};
+      face.mesh.corners = detail::grid_cuboids(shape);
+      faces.push_back(std::move(face));
+    }
+}
+
+template <ExactField T>
+Result<PatchDrawing> draw_solid(const ModelSolid<T>& model, int index, int cells) {
+  PatchDrawing out;
+  out.is_solid = true;
+  out.name = title_of("solid", index, model.name);
+  out.cells = {cells, cells};
+  const auto pieces = tessellate(model.map, cells);
+  if (!pieces) return Error{pieces.error().code, out.name, pieces.error().message, pieces.error().where};
+  for (const Tessellation<3>& piece : *pieces) add_faces(out.pieces, piece);
   return out;
 }
 
@@ -179,21 +227,25 @@ bool has_different_weights(const std::vector<T>& weights) {
 
 }  // namespace
 
-Result<std::vector<int>> chosen(std::size_t count, const std::optional<int>& only, bool others_chosen,
-                                const std::string& what) {
-  std::vector<int> out;
-  if (only) {
-    if (*only < 0 || *only >= static_cast<int>(count))
-      return Error{ErrorCode::bad_reference, "--" + what,
-                   count == 0 ? fmt::format("the model has no {}", what == "patch" ? "patches" : "curves")
-                   : count == 1
-                       ? fmt::format("the model has one {}, number 0", what)
-                       : fmt::format("the model has {} 0 to {}", what == "patch" ? "patches" : "curves", count - 1),
+template <ExactField T>
+Result<Chosen> chosen(const Model<T>& model, const PlotOptions& options) {
+  Chosen out;
+  const bool all = !options.curve && !options.patch && !options.solid;
+  const auto choose = [&](std::vector<int>& indices, std::size_t count, const std::optional<int>& only,
+                          const char* what, const char* plural) -> std::optional<Error> {
+    if (only && (*only < 0 || *only >= static_cast<int>(count)))
+      return Error{ErrorCode::bad_reference, fmt::format("--{}", what),
+                   count == 0   ? fmt::format("the model has no {}", plural)
+                   : count == 1 ? fmt::format("the model has one {}, number 0", what)
+                                : fmt::format("the model has {} 0 to {}", plural, count - 1),
                    std::to_string(*only)};
-    out.push_back(*only);
-  } else if (!others_chosen) {
-    for (std::size_t i = 0; i < count; ++i) out.push_back(static_cast<int>(i));
-  }
+    if (only) indices.push_back(*only);
+    for (std::size_t i = 0; all && i < count; ++i) indices.push_back(static_cast<int>(i));
+    return std::nullopt;
+  };
+  if (auto error = choose(out.curves, model.curves.size(), options.curve, "curve", "curves")) return *error;
+  if (auto error = choose(out.patches, model.patches.size(), options.patch, "patch", "patches")) return *error;
+  if (auto error = choose(out.solids, model.solids.size(), options.solid, "solid", "solids")) return *error;
   return out;
 }
 
@@ -203,26 +255,30 @@ std::string title_of(const std::string& what, int index, const std::string& name
 
 template <ExactField T>
 Result<Drawing> draw(const Model<T>& model, const PlotOptions& options) {
-  const auto curves = chosen(model.curves.size(), options.curve, options.patch.has_value(), "curve");
-  const auto patches = chosen(model.patches.size(), options.patch, options.curve.has_value(), "patch");
-  if (!curves) return curves.error();
-  if (!patches) return patches.error();
+  const Result<Chosen> which = chosen(model, options);
+  if (!which) return which.error();
   Drawing out;
   std::size_t spans = 0, edges = 0;
-  for (const int i : *patches) spans += spans_of(model.patches[i].surface);
-  for (const int i : *curves) edges += model.curves[i].curve.knots().breaks().size() - 1;
+  for (const int i : which->patches) spans += spans_of(model.patches[i].surface);
+  for (const int i : which->solids) spans += face_spans(model.solids[i].map);
+  for (const int i : which->curves) edges += model.curves[i].curve.knots().breaks().size() - 1;
   const int cells = options.cells.value_or(picture_cells(spans));
   const std::size_t wide = static_cast<std::size_t>(cells);
   if (spans > kMostDrawn || spans * wide > kMostDrawn || spans * wide * wide > kMostDrawn) return too_much_to_draw();
   const int curve_cells = options.cells.value_or(kCurveCells);
   if (edges > kMostDrawn || edges * static_cast<std::size_t>(curve_cells) > kMostDrawn) return too_much_to_draw();
-  for (const int i : *curves) {
+  for (const int i : which->curves) {
     auto drawn = draw_curve(model.curves[i], i, curve_cells);
     if (!drawn) return drawn.error();
     out.curves.push_back(std::move(*drawn));
   }
-  for (const int i : *patches) {
+  for (const int i : which->patches) {
     auto drawn = draw_patch(model.patches[i], i, cells, options.control.value_or(false));
+    if (!drawn) return drawn.error();
+    out.patches.push_back(std::move(*drawn));
+  }
+  for (const int i : which->solids) {
+    auto drawn = draw_solid(model.solids[i], i, cells);
     if (!drawn) return drawn.error();
     out.patches.push_back(std::move(*drawn));
   }
@@ -231,10 +287,8 @@ Result<Drawing> draw(const Model<T>& model, const PlotOptions& options) {
 
 template <ExactField T>
 Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOptions& options) {
-  const auto curves = chosen(model.curves.size(), options.curve, options.patch.has_value(), "curve");
-  const auto patches = chosen(model.patches.size(), options.patch, options.curve.has_value(), "patch");
-  if (!curves) return curves.error();
-  if (!patches) return patches.error();
+  const Result<Chosen> which = chosen(model, options);
+  if (!which) return which.error();
   std::vector<BasisSource<T>> sources;
   const auto add = [&](const std::string& owner, const KnotVector<T>& knots, std::vector<T> weights) {
     if (!has_different_weights(weights)) weights.clear();
@@ -245,13 +299,13 @@ Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOp
       }
     sources.push_back({owner, knots, std::move(weights)});
   };
-  for (const int i : *curves) {
+  for (const int i : which->curves) {
     const ModelCurve<T>& c = model.curves[i];
     std::vector<T> weights;
     for (const Vec<T, 4>& p : c.curve.points()) weights.push_back(p[3]);
     add(title_of("curve", i, c.name), c.curve.knots(), std::move(weights));
   }
-  for (const int i : *patches) {
+  for (const int i : which->patches) {
     const ModelPatch<T>& p = model.patches[i];
     for (const Direction d : {Direction::u, Direction::v})
       add(title_of("patch", i, p.name) + (d == Direction::u ? " along u" : " along v"), p.surface.knots(d), {});
@@ -269,9 +323,13 @@ Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOp
       out.push_back(std::move(*panel));
     }
   }
+  if (out.empty())
+    return Error{ErrorCode::usage, "--basis", "there are no curves and no patches whose functions could be drawn", ""};
   return out;
 }
 
+template Result<Chosen> chosen(const Model<Rational>&, const PlotOptions&);
+template Result<Chosen> chosen(const Model<Quadratic>&, const PlotOptions&);
 template Result<Drawing> draw(const Model<Rational>&, const PlotOptions&);
 template Result<Drawing> draw(const Model<Quadratic>&, const PlotOptions&);
 template Result<std::vector<BasisDrawing>> draw_basis(const Model<Rational>&, const PlotOptions&);

@@ -37,7 +37,9 @@ struct CurveDrawing {
   std::vector<DrawnControl> controls;
 };
 
+// A patch, or a solid.
 struct PatchDrawing {
+  bool is_solid = false;
   std::string name;
   std::array<int, 2> degree{}, cells{};  // cells in each span
   bool is_rational = false;
@@ -80,11 +82,14 @@ Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOp
 std::string svg_scene(const Drawing& drawing, const PlotOptions& options);
 std::string svg_basis(const std::vector<BasisDrawing>& panels, const PlotOptions& options);
 
-// The indices that the options choose: `only`, or all.
-Result<std::vector<int>> chosen(std::size_t count, const std::optional<int>& only, bool others_chosen,
-                                const std::string& what);
+// The indices of the curves, patches and solids that the options choose: the given ones, or all.
+struct Chosen {
+  std::vector<int> curves, patches, solids;
+};
+template <ExactField T>
+Result<Chosen> chosen(const Model<T>& model, const PlotOptions& options);
 
-// "curve 3 \"rim\""
+// The name, or "curve 3".
 std::string title_of(const std::string& what, int index, const std::string& name);
 
 }  // namespace patchproof

@@ -8,6 +8,7 @@
 
 #include "io/drawing.h"
 #include "patchproof/io/mesh_files.h"
+#include "patchproof/mesh/tessellate_transfinite.h"
 
 namespace patchproof {
 namespace {
@@ -30,12 +31,10 @@ std::optional<Error> add_parts(std::vector<MeshPart>& parts, const std::string& 
 
 template <ExactField T>
 Result<std::vector<MeshPart>> parts_of(const Model<T>& model, bool surfaces_only, const PlotOptions& options) {
-  const auto curves = chosen(model.curves.size(), options.curve, options.patch.has_value(), "curve");
-  const auto patches = chosen(model.patches.size(), options.patch, options.curve.has_value(), "patch");
-  if (!curves) return curves.error();
-  if (!patches) return patches.error();
+  const Result<Chosen> which = chosen(model, options);
+  if (!which) return which.error();
   std::vector<MeshPart> parts;
-  for (const int i : *curves) {
+  for (const int i : which->curves) {
     if (surfaces_only) break;
     const ModelCurve<T>& c = model.curves[i];
     if (auto error =
@@ -43,10 +42,14 @@ Result<std::vector<MeshPart>> parts_of(const Model<T>& model, bool surfaces_only
       return *error;
   }
   const int cells = options.cells.value_or(kPatchCells);
-  for (const int i : *patches) {
+  for (const int i : which->patches) {
     const ModelPatch<T>& p = model.patches[i];
     if (auto error = add_parts(parts, title_of("patch", i, p.name), tessellate(p.surface, {cells, cells})))
       return *error;
+  }
+  for (const int i : which->solids) {
+    const ModelSolid<T>& s = model.solids[i];
+    if (auto error = add_parts(parts, title_of("solid", i, s.name), tessellate(s.map, cells))) return *error;
   }
   return parts;
 }
@@ -71,8 +74,9 @@ Result<std::string> plot(const Model<T>& model, PlotFormat format, const PlotOpt
     return Error{ErrorCode::usage, "--cells", "at least one cell in each span", std::to_string(*options.cells)};
   if (options.basis && format != PlotFormat::svg)
     return Error{ErrorCode::usage, "--basis", "basis functions are drawn as svg only", ""};
-  if (model.curves.empty() && model.patches.empty() && !options.curve && !options.patch)
-    return Error{ErrorCode::usage, "plot", "there is nothing to draw: the model has no curves and no patches", ""};
+  if (model.curves.empty() && model.patches.empty() && model.solids.empty() && !options.curve && !options.patch &&
+      !options.solid)
+    return Error{ErrorCode::usage, "plot", "there is nothing to draw: the model has no curves, patches or solids", ""};
   if (options.basis) {
     const auto panels = draw_basis(model, options);
     if (!panels) return panels.error();

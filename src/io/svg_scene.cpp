@@ -17,14 +17,6 @@ constexpr double kMargin = 44;
 constexpr int kIsolines = 4;              // at most so many intervals between isoparametric lines in each span
 constexpr std::size_t kMostLabels = 300;  // knots are labelled in pictures of one or two curves with few of them
 
-// The step of 1, 2 or 5 times a power of ten that cuts the extent into at most `most` parts.
-double round_step(double extent, int most) {
-  double step = std::pow(10, std::floor(std::log10(extent / most)));
-  for (const double factor : {2.0, 2.5, 2.0})
-    if (extent / step > most) step *= factor;
-  return step;
-}
-
 class Scene {
  public:
   Scene(const Drawing& drawing, const PlotOptions& options)
@@ -79,15 +71,24 @@ class Scene {
       subtitle_ =
           fmt::format("{}: {}degree {}, {} control points, {} span{}", c.name, c.is_rational ? "rational, " : "",
                       c.degree, c.controls.size(), spans, spans == 1 ? "" : "s");
-    } else if (patches == 1 && curves == 0) {
-      const PatchDrawing& p = drawing_.patches[0];
-      subtitle_ = fmt::format("{}: {}degree {} × {}, {} × {} control points", p.name, p.is_rational ? "rational, " : "",
-                              p.degree[0], p.degree[1], p.count[0], p.count[1]);
-    } else {
-      if (curves > 0) subtitle_ += fmt::format("{} curve{}", curves, curves == 1 ? "" : "s");
-      if (patches > 0)
-        subtitle_ += fmt::format("{}{} patch{}", curves > 0 ? ", " : "", patches, patches == 1 ? "" : "es");
+      return;
     }
+    if (patches == 1 && curves == 0) {
+      const PatchDrawing& p = drawing_.patches[0];
+      subtitle_ =
+          p.is_solid ? p.name
+                     : fmt::format("{}: {}degree {} × {}, {} × {} control points", p.name,
+                                   p.is_rational ? "rational, " : "", p.degree[0], p.degree[1], p.count[0], p.count[1]);
+      return;
+    }
+    const std::size_t solids = std::count_if(drawing_.patches.begin(), drawing_.patches.end(),
+                                             [](const PatchDrawing& p) { return p.is_solid; });
+    const auto count = [&](std::size_t n, const char* what, const char* plural) {
+      if (n > 0) subtitle_ += fmt::format("{}{} {}", subtitle_.empty() ? "" : ", ", n, n == 1 ? what : plural);
+    };
+    count(curves, "curve", "curves");
+    count(patches - solids, "patch", "patches");
+    count(solids, "solid", "solids");
   }
 
   void include_everything() {

@@ -12,6 +12,14 @@
 
 namespace patchproof {
 
+// The step of 1, 2 or 5 times a power of ten that cuts the extent into at most `most` parts.
+inline double round_step(double extent, int most) {
+  double step = std::pow(10, std::floor(std::log10(extent / most)));
+  for (const double factor : {2.0, 2.5, 2.0})
+    if (extent / step > most) step *= factor;
+  return step;
+}
+
 // An orthographic view: coordinates to the right, upwards, and towards the eye.
 class View {
  public:

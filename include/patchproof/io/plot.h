@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Models as pictures and as meshes.
 //
-//   svg   curves with control polygon and knots; patches shaded, with isoparametric lines; or, with `basis`, the graphs of
+//   svg   curves with control polygon and knots; patches and the
+//         faces of solids shaded, with isoparametric lines; or, with `basis`, the graphs of
 //         the B-spline functions (and R_i = w_i N_i / Σ w_j N_j where there are weights) over their knots
 //   obj, stl, vtu, glb   the tessellated model: mesh_files.h
 //
@@ -13,7 +14,7 @@
 //              degree ≤ 3 is one command with its Bézier points, to 1/100 of a page unit;
 //          (2) all coordinates of the picture lie within its viewBox;  (3) the same model and options give the same bytes;
 //          (4) basis: one line for each function and component, for each distinct knot vector drawn;
-//          (5) a mesh file holds the curves and patches of the model in order, one part for each component.
+//          (5) a mesh file holds the curves, patches and solids of the model in order, one part for each component.
 // ERRORS   bad_reference: no such curve or patch;  usage: nothing to draw, or a picture with too many cells;
 //          what tessellate and mesh_files.h say.
 // NEIGHBOURS mesh_files.h, read.h.
@@ -35,11 +36,11 @@ enum class PlotFormat { svg, obj, stl, vtu, glb };
 std::optional<PlotFormat> plot_format(std::string_view name);
 
 struct PlotOptions {
-  std::string title;                    // above the picture
-  bool basis = false;                   // the functions instead of the geometry; svg only
-  std::optional<bool> control{};        // control polygons and nets; empty: of curves only
-  std::optional<int> cells{};           // in each span; empty: chosen
-  std::optional<int> curve{}, patch{};  // only this one, from 0
+  std::string title;                             // above the picture
+  bool basis = false;                            // the functions instead of the geometry; svg only
+  std::optional<bool> control{};                 // control polygons and nets; empty: of curves only
+  std::optional<int> cells{};                    // in each span; empty: chosen
+  std::optional<int> curve{}, patch{}, solid{};  // only this one, from 0
 };
 
 // The bytes of the file. T: Rational or Quadratic.
