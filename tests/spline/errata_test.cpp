@@ -119,22 +119,26 @@ TEST(Errata, Erratum_E_LAR_04_TheEndIsCountedTwice) {
 }
 
 TEST(Errata, Erratum_E_LAR_05_OnePolylineDrawsAnEdgeThatDoesNotExist) {
-  for (const auto& [name, before, after] :
-       {std::tuple{"test12_b3", at(q(1), q(4)), at(q(2), q(3))}, {"test12_b4", at(q(1), q(4)), at(q(1), q(1))}}) {
-    const auto curve = lar_curve(name);
+  struct Jump {
+    const char* name;
+    Point before, after;
+  };
+  for (const Jump& j :
+       {Jump{"test12_b3", at(q(1), q(4)), at(q(2), q(3))}, Jump{"test12_b4", at(q(1), q(4)), at(q(1), q(1))}}) {
+    const auto curve = lar_curve(j.name);
     // Printed: all samples in one line; the sample at the jump is the right limit, next to samples of the left piece.
     const Numbers printed = printed_domain(curve.knots().knots(), 32);
     const auto jump = std::find(printed.begin(), printed.end(), q(1));
     ASSERT_NE(jump, printed.end());
-    EXPECT_EQ(printed_point(name, *jump), after);
-    EXPECT_EQ(printed_point(name, *(jump - 1)), evaluate(curve, q(31, 32)));
+    EXPECT_EQ(printed_point(j.name, *jump), j.after);
+    EXPECT_EQ(printed_point(j.name, *(jump - 1)), evaluate(curve, q(31, 32)));
     EXPECT_TRUE(std::none_of(printed.begin(), printed.end(),
-                             [&](const Rational& t) { return printed_point(name, t) == before; }));
+                             [&](const Rational& t) { return printed_point(j.name, t) == j.before; }));
     // Ours: two lines; the first one ends in the left limit.
     const auto lists = sample_domain(curve.knots(), q(32)).value();
     ASSERT_EQ(lists.size(), 2u);
-    EXPECT_EQ(evaluate(curve, lists[0].back().t, lists[0].back().side), before);
-    EXPECT_EQ(evaluate(curve, lists[1].front().t, lists[1].front().side), after);
+    EXPECT_EQ(evaluate(curve, lists[0].back().t, lists[0].back().side), j.before);
+    EXPECT_EQ(evaluate(curve, lists[1].front().t, lists[1].front().side), j.after);
   }
 }
 
