@@ -13,7 +13,7 @@
 namespace patchproof {
 namespace {
 
-constexpr int kCurveCells = 96, kBasisCells = 32;
+constexpr int kCurveCells = 96, kBasisCells = 64;
 constexpr int kPictureQuadrangles = 8000;    // about so many when the cells are chosen here
 constexpr std::size_t kMostDrawn = 1000000;  // edges or quadrangles; more than any viewer of SVG bears
 

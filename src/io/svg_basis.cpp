@@ -34,6 +34,7 @@ class Panel {
              13, kInk);
     axes();
     Labels labels(group_, 4, top_ - 16, kPageWidth - 4, top_ + kGraph);
+    labels.reserve({kLeft - 10, place(0, 1).y}, 8);  // the axis' own labels
     if (basis_.functions.size() <= kMostReserved)
       for (const auto& f : basis_.functions)
         for (const auto& line : f.components)
@@ -102,7 +103,7 @@ class Panel {
           any = true;
         }
     if (!any) return;
-    labels.put_near(place(best[0], best[1]), 4, fmt::format("{}{}", basis_.is_rational ? "R" : "N", subscript(i)), 12,
+    labels.put_near(place(best[0], best[1]), 6, fmt::format("{}{}", basis_.is_rational ? "R" : "N", subscript(i)), 12,
                     line_colour(i));
   }
 

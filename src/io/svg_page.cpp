@@ -109,6 +109,35 @@ bool Labels::put_near(const PagePoint& p, double distance, const std::string& te
   return false;
 }
 
+void Legend::add(const std::string& text, Sign sign) {
+  const double width = 26 + text_width(text, 11.5) + 18;
+  if (next_ > 24 && next_ + width > kPageWidth - 90) {  // the corner is for the axes of space
+    next_ = 24;
+    ++rows_;
+  }
+  entries_.push_back({text, std::move(sign), next_, rows_ - 1});
+  next_ += width;
+}
+
+void Legend::add_line(const std::string& text, const std::string& colour, const char* width, const char* dashes) {
+  add(text, [=](pugi::xml_node group, double left, double middle) {
+    pugi::xml_node path = patchproof::add(group, "path",
+                                          {{"d", command('M', {{left, middle}}) + command('L', {{left + 20, middle}})},
+                                           {"stroke", colour},
+                                           {"stroke-width", width}});
+    if (dashes[0] != 0) path.append_attribute("stroke-dasharray") = dashes;
+  });
+}
+
+void Legend::draw(pugi::xml_node root, double top) const {
+  pugi::xml_node group = patchproof::add(root, "g", {{"class", "legend"}});
+  for (const Entry& e : entries_) {
+    const double baseline = top + 18 * static_cast<double>(e.row) + 12;
+    e.sign(group, e.left, baseline - 4);
+    add_text(group, {e.left + 26, baseline}, e.text, 11.5, kInk);
+  }
+}
+
 double Page::top(const std::string& title, const std::string& subtitle) {
   return 16 + (title.empty() ? 0 : 24) + (subtitle.empty() ? 0 : 20);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <pugixml.hpp>
 #include <string>
 #include <utility>
@@ -52,6 +53,30 @@ class Labels {
   pugi::xml_node parent_;
   double left_, top_, right_, bottom_;
   std::vector<Box> taken_;
+};
+
+// What the signs of a picture mean, in as many rows as it takes.
+class Legend {
+ public:
+  // Draws a sign 20 wide whose middle is at the height given.
+  using Sign = std::function<void(pugi::xml_node, double left, double middle)>;
+
+  void add(const std::string& text, Sign sign);
+  // A line of this colour.
+  void add_line(const std::string& text, const std::string& colour, const char* width, const char* dashes = "");
+  double height() const { return 18 * static_cast<double>(rows_); }
+  void draw(pugi::xml_node root, double top) const;
+
+ private:
+  struct Entry {
+    std::string text;
+    Sign sign;
+    double left;
+    std::size_t row;
+  };
+  std::vector<Entry> entries_;
+  std::size_t rows_ = 1;
+  double next_ = 24;
 };
 
 // How wide a text is, about: no font can be asked.

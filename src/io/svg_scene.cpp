@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kMargin = 44;
 constexpr int kIsolines = 4;              // at most so many intervals between isoparametric lines in each span
+constexpr std::size_t kMostNamed = 10;    // curves in the legend
 constexpr std::size_t kMostLabels = 300;  // knots are labelled in pictures of one or two curves with few of them
 
 class Scene {
@@ -30,8 +31,9 @@ class Scene {
     const double left = plane_ ? kMargin + 12 : kMargin, top = Page::top(title_, subtitle_) + 18;
     const double used = view_.fit(left, kPageWidth - left - kMargin, top);
     const double bottom = top + used + 14;
-    const double axis_room = plane_ ? 24 : 0, legend_room = 34;
-    Page page(bottom + axis_room + legend_room, title_, subtitle_);
+    const double legend_top = bottom + (plane_ ? 30 : 6);
+    const Legend legend = this->legend();
+    Page page(legend_top + legend.height() + 12, title_, subtitle_);
     pugi::xml_node root = page.root();
     if (plane_) axes(root, left - 14, kPageWidth - kMargin + 14, top - 14, bottom);
     patches(root);
@@ -45,7 +47,7 @@ class Scene {
       paths(over, drawing_.curves[i], i);
     }
     for (std::size_t i = 0; i < drawing_.curves.size(); ++i) marks(over, labels, drawing_.curves[i], i);
-    legend(root, bottom + axis_room + 20);
+    legend.draw(root, legend_top);
     if (!plane_) triad(root, bottom + 4);
     return page.text();
   }
@@ -327,49 +329,32 @@ class Scene {
 
   // ---- what the signs mean --------------------------------------------------------------------------------------------
 
-  void legend(pugi::xml_node root, double y) const {
-    pugi::xml_node group = add(root, "g", {{"class", "legend"}});
-    double x = 24;
-    const auto entry = [&](const std::string& text, auto sign) {
-      const double width = 26 + text_width(text, 11.5) + 18;
-      if (x + width > kPageWidth - 24) return;
-      sign(x, y - 4);
-      add_text(group, {x + 26, y}, text, 11.5, kInk);
-      x += width;
-    };
-    const auto line = [&](const std::string& colour, const char* width, const char* dashes) {
-      return [&group, colour, width, dashes](double left, double middle) {
-        pugi::xml_node path = add(group, "path",
-                                  {{"d", command('M', {{left, middle}}) + command('L', {{left + 20, middle}})},
-                                   {"stroke", colour},
-                                   {"stroke-width", width}});
-        if (dashes[0] != 0) path.append_attribute("stroke-dasharray") = dashes;
-      };
-    };
-    for (std::size_t i = 0; i < drawing_.curves.size() && i < 8; ++i)
-      entry(shortened(drawing_.curves[i].name, 11.5, 130), line(line_colour(i), "2.4", ""));
-    if (!drawing_.curves.empty()) {
-      if (show_polygons_) entry("control polygon", line(kFaint, "1.1", "5 3"));
-      entry("knot", [&](double left, double middle) {
+  Legend legend() const {
+    Legend out;
+    const std::size_t curves = drawing_.curves.size();
+    for (std::size_t i = 0; i < curves && i < kMostNamed; ++i)
+      out.add_line(shortened(drawing_.curves[i].name, 11.5, 150), line_colour(i), "2.4");
+    if (curves > kMostNamed) out.add(fmt::format("and {} more", curves - kMostNamed), [](auto...) {});
+    if (curves > 0 && show_polygons_) out.add_line("control polygon", kFaint, "1.1", "5 3");
+    if (curves > 0)
+      out.add("knot", [](pugi::xml_node group, double left, double middle) {
         add(group, "path",
             {{"d", command('M', {{left + 10, middle - 6}}) + command('L', {{left + 10, middle + 6}})},
              {"stroke", kInk},
              {"stroke-width", "1.6"}});
       });
-    }
-    bool vectors = false;
-    for (const CurveDrawing& c : drawing_.curves)
-      for (const DrawnControl& p : c.controls) vectors = vectors || (show_polygons_ && p.is_vector);
-    if (vectors)
-      entry("control vector, weight 0", [&](double left, double middle) {
+    const auto is_vector = [](const DrawnControl& p) { return p.is_vector; };
+    if (show_polygons_ && std::any_of(drawing_.curves.begin(), drawing_.curves.end(), [&](const CurveDrawing& c) {
+          return std::any_of(c.controls.begin(), c.controls.end(), is_vector);
+        }))
+      out.add("control vector, weight 0", [](pugi::xml_node group, double left, double middle) {
         arrow(group, {left, middle}, {left + 20, middle});
       });
-    if (!drawing_.patches.empty()) entry("knot lines", line("#4a6a8c", "1.3", ""));
-    for (const PatchDrawing& p : drawing_.patches)
-      if (!p.controls.empty()) {
-        entry("control net", line(kAccent, "0.9", ""));
-        break;
-      }
+    if (!drawing_.patches.empty()) out.add_line("knot lines", "#4a6a8c", "1.3");
+    if (std::any_of(drawing_.patches.begin(), drawing_.patches.end(),
+                    [](const auto& p) { return !p.controls.empty(); }))
+      out.add_line("control net", kAccent, "0.9");
+    return out;
   }
 
   // The directions of the axes, at the right of the legend.
