@@ -14,7 +14,7 @@ namespace patchproof {
 namespace {
 
 constexpr int kCurveCells = 96, kBasisCells = 64;
-constexpr int kPictureQuadrangles = 8000;    // about so many when the cells are chosen here
+constexpr int kPictureQuadrangles = 5000;    // about so many when the cells are chosen here
 constexpr std::size_t kMostDrawn = 1000000;  // edges or quadrangles; more than any viewer of SVG bears
 
 // Short and exact, or 4 digits.
@@ -85,12 +85,61 @@ Result<CurveDrawing> draw_curve(const ModelCurve<T>& model, int index, int cells
 }
 
 template <ExactField T>
-Result<PatchDrawing> draw_patch(const ModelPatch<T>& model, int index, int cells, bool control) {
+std::size_t spans_of(const BsplinePatch<T, 4>& s) {
+  return (s.knots(Direction::u).breaks().size() - 1) * (s.knots(Direction::v).breaks().size() - 1);
+}
+
+// How long the control net is along u and along v, on average, for each span; nothing when doubles cannot tell.
+template <ExactField T>
+std::optional<std::array<double, 2>> span_lengths(const BsplinePatch<T, 4>& s) {
+  std::array<double, 2> sum{};
+  const int rows = s.count(Direction::u), columns = s.count(Direction::v);
+  const auto length = [&](const Vec<T, 4>& a, const Vec<T, 4>& b) {
+    const DrawnControl p = control_of(a), q = control_of(b);
+    const Point3 d = q.at - p.at;
+    return p.is_vector || q.is_vector ? 0.0 : std::hypot(d[0], d[1], d[2]);
+  };
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      if (i + 1 < rows) sum[0] += length(s.point(i, j), s.point(i + 1, j)) / columns;
+      if (j + 1 < columns) sum[1] += length(s.point(i, j), s.point(i, j + 1)) / rows;
+    }
+  for (const Direction d : {Direction::u, Direction::v})
+    sum[d == Direction::v] /= static_cast<double>(s.knots(d).breaks().size() - 1);
+  if (!std::isfinite(sum[0] * sum[1]) || !(sum[0] * sum[1] > 0)) return std::nullopt;
+  return sum;
+}
+
+// Cells of about the same size everywhere: painter's order and shading want neighbours of one size.
+template <ExactField T>
+std::vector<std::array<int, 2>> even_cells(const Model<T>& model, const std::vector<int>& patches, int otherwise) {
+  std::vector<std::optional<std::array<double, 2>>> lengths;
+  double area = 0;
+  for (const int i : patches) {
+    lengths.push_back(span_lengths(model.patches[i].surface));
+    if (lengths.back())
+      area += static_cast<double>(spans_of(model.patches[i].surface)) * (*lengths.back())[0] * (*lengths.back())[1];
+  }
+  const double size = std::sqrt(area / kPictureQuadrangles);
+  std::vector<std::array<int, 2>> out;
+  for (const auto& l : lengths) {
+    out.push_back({otherwise, otherwise});
+    if (!l || !std::isfinite(size) || otherwise < 4) continue;
+    for (int d : {0, 1}) {
+      const int cells = static_cast<int>(std::clamp((*l)[d] / size, otherwise < 8 ? 4.0 : 8.0, 40.0));
+      out.back()[d] = cells - cells % 4;
+    }
+  }
+  return out;
+}
+
+template <ExactField T>
+Result<PatchDrawing> draw_patch(const ModelPatch<T>& model, int index, std::array<int, 2> cells, bool control) {
   const BsplinePatch<T, 4>& s = model.surface;
   PatchDrawing out{false,
                    title_of("patch", index, model.name),
                    {s.degree(Direction::u), s.degree(Direction::v)},
-                   {cells, cells},
+                   cells,
                    model.is_rational,
                    {},
                    {s.count(Direction::u), s.count(Direction::v)},
@@ -158,11 +207,6 @@ int picture_cells(std::size_t spans) {
   const double wide = std::sqrt(kPictureQuadrangles / std::max<double>(1, static_cast<double>(spans)));
   const int cells = std::clamp(static_cast<int>(wide), 2, 24);
   return cells < 4 ? cells : cells - cells % 4;
-}
-
-template <ExactField T>
-std::size_t spans_of(const BsplinePatch<T, 4>& s) {
-  return (s.knots(Direction::u).breaks().size() - 1) * (s.knots(Direction::v).breaks().size() - 1);
 }
 
 Error too_much_to_draw() {
@@ -272,8 +316,11 @@ Result<Drawing> draw(const Model<T>& model, const PlotOptions& options) {
     if (!drawn) return drawn.error();
     out.curves.push_back(std::move(*drawn));
   }
-  for (const int i : which->patches) {
-    auto drawn = draw_patch(model.patches[i], i, cells, options.control.value_or(false));
+  std::vector<std::array<int, 2>> patch_cells(which->patches.size(), {cells, cells});
+  if (!options.cells) patch_cells = even_cells(model, which->patches, cells);
+  for (std::size_t k = 0; k < which->patches.size(); ++k) {
+    const int i = which->patches[k];
+    auto drawn = draw_patch(model.patches[i], i, patch_cells[k], options.control.value_or(false));
     if (!drawn) return drawn.error();
     out.patches.push_back(std::move(*drawn));
   }
