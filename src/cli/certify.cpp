@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "cli/commands.h"
+#include "patchproof/io/cad.h"
 #include "patchproof/io/read.h"
 #include "patchproof/io/report.h"
 
@@ -68,6 +69,28 @@ Outcome worse(Outcome a, Outcome b) {
   return a == Outcome::undecided || b == Outcome::undecided ? Outcome::undecided : Outcome::pass;
 }
 
+// Patches with exact numbers, or trimmed faces.
+using Input = std::variant<ModelFile, CadModel>;
+
+Result<Input> read_input(const std::string& path, Decimals decimals) {
+  if (looks_like_cad(path)) {
+#ifdef PATCHPROOF_HAVE_OCCT_READER
+    Result<CadModel> model = read_cad_model(path);
+    if (!model) return model.error();
+    return Input(std::move(*model));
+#else
+    return Error{ErrorCode::unsupported, path,
+                 "STEP, IGES and BREP files are read by builds with Open CASCADE (Debian: libocct-data-exchange-dev)",
+                 ""};
+#endif
+  }
+  Result<ModelFile> file = read_model(path, decimals);
+  if (!file) return file.error();
+  if (std::visit([](const auto& model) { return model.patches.empty(); }, file->model))
+    return Error{ErrorCode::wrong_count, path, "the model has no patches, so there are no joins to certify", ""};
+  return Input(std::move(*file));
+}
+
 int run(const Options& options) {
   CertifyOptions certify;
   if (options.require)
@@ -83,13 +106,10 @@ int run(const Options& options) {
   certify.progress = [&](std::size_t done, std::size_t all) { bar.show(done, all); };
 
   // All files are read before anything is reported: bad input leaves no partial report.
-  std::vector<ModelFile> files;
+  std::vector<Input> files;
   for (const std::string& path : options.models) {
-    Result<ModelFile> file = read_model(path, options.decimals);
+    Result<Input> file = read_input(path, options.decimals);
     if (!file) return report_error(file.error());
-    if (std::visit([](const auto& model) { return model.patches.empty(); }, file->model))
-      return report_error(
-          {ErrorCode::wrong_count, path, "the model has no patches, so there are no joins to certify", ""});
     files.push_back(std::move(*file));
     std::error_code ignored;
     if (options.json != "-" && std::filesystem::equivalent(path, options.json, ignored))
@@ -99,7 +119,14 @@ int run(const Options& options) {
   std::ostringstream json, table;
   if (!options.json.empty() && files.size() > 1) json << "[";
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const Report report = certify_model(files[i], certify);
+    const Report report = std::visit(
+        [&]<class File>(const File& file) {
+          if constexpr (std::is_same_v<File, CadModel>)
+            return certify_cad(file, certify);
+          else
+            return certify_model(file, certify);
+        },
+        files[i]);
     outcome = worse(outcome, report.outcome());
     if (!options.json.empty()) {
       if (i > 0) json << ",\n";

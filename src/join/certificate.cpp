@@ -11,6 +11,7 @@ const char* to_string(JoinKind kind) {
     case JoinKind::t_junction: return "t-junction";
     case JoinKind::seam: return "seam";
     case JoinKind::knot_line: return "knot-line";
+    case JoinKind::trimmed: return "trimmed";
   }
   return "unknown";
 }

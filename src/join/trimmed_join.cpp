@@ -7,17 +7,12 @@
 #include <queue>
 
 #include "patchproof/patch/affine.h"
-#include "patchproof/patch/rational_patch.h"
-#include "patchproof/scalar/taylor_model.h"
+#include "trimmed_side.h"
 
 namespace patchproof {
 namespace {
 
-constexpr int kOrder = 7;
-using Model = TaylorModel<kOrder>;
-using Surface = BsplinePatch<Interval, 4, Rational>;
-using ParameterCurve = BsplineCurve<Rational, 3>;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using namespace trimmed;
 
 // A part of the range of t, and what is known there.
 struct Piece {
@@ -25,74 +20,6 @@ struct Piece {
   int depth = 0;
   std::vector<DeviationPiece> gap, angle;  // one for each combination of polynomials that may be meant
 };
-
-// One side, with its surface moved so that coordinates are as small as the edge allows.
-struct Side {
-  Surface surface;
-  const ParameterCurve* curve;
-  bool flipped, polynomial;
-};
-
-bool has_unit_weights(const ParameterCurve& curve) {
-  return std::all_of(curve.points().begin(), curve.points().end(), [](const auto& p) { return p[2] == Rational(1); });
-}
-
-Surface enclosed(const BsplinePatch<Rational, 4>& patch) {
-  std::vector<Vec<Interval, 4>> net;
-  for (const auto& p : patch.net()) net.push_back({{enclose(p[0]), enclose(p[1]), enclose(p[2]), enclose(p[3])}});
-  return {patch.knots(Direction::u), patch.knots(Direction::v), std::move(net)};
-}
-
-// The spans of the knots that a parameter in [x.inf, x.sup] may lie in; the outermost ones reach to infinity.
-std::vector<int> spans_meeting(const KnotVector<Rational>& knots, const Interval& x) {
-  const auto clamped = [&](double value) {
-    const Rational r = from_double(value);
-    return r < knots.domain_begin() ? knots.domain_begin() : r > knots.domain_end() ? knots.domain_end() : r;
-  };
-  const int first = knots.find_span(clamped(x.inf()), patchproof::Side::left),
-            last = knots.find_span(clamped(x.sup()), patchproof::Side::right);
-  std::vector<int> out;
-  for (int span = first; span <= last; ++span)
-    if (knots[span] < knots[span + 1]) out.push_back(span);
-  return out;
-}
-
-// Where a side runs on a part of the edge: models of u and v, and the spans that they meet.
-struct Run {
-  Model u, v;
-  std::vector<int> spans_u, spans_v;
-  std::size_t combinations() const { return spans_u.size() * spans_v.size(); }
-};
-
-Run run_of(const Side& side, const Model& t, const Rational& inside) {
-  const int span = side.curve->knots().find_span(inside);
-  const Vec<Model, 3> h = evaluate_in_span<Model>(*side.curve, span, t);
-  Run run;
-  run.u = side.polynomial ? h[0] : h[0] / h[2];
-  run.v = side.polynomial ? h[1] : h[1] / h[2];
-  const Interval u = run.u.bernstein_range(), v = run.v.bernstein_range();
-  if (!std::isfinite(u.inf()) || !std::isfinite(u.sup()) || !std::isfinite(v.inf()) || !std::isfinite(v.sup()))
-    return run;
-  run.spans_u = spans_meeting(side.surface.knots(Direction::u), u);
-  run.spans_v = spans_meeting(side.surface.knots(Direction::v), v);
-  return run;
-}
-
-// A homogeneous point and w⁴ times the face's normal.
-struct Frame {
-  Vec<Model, 4> point;
-  Vec<Model, 3> normal;
-};
-std::vector<Frame> frames(const Side& side, const Run& run) {
-  std::vector<Frame> out;
-  for (const int i : run.spans_u)
-    for (const int j : run.spans_v) {
-      const auto d = partial_derivatives_in_span<Model>(side.surface, i, j, run.u, run.v, 1, 1);
-      const Vec<Model, 3> n = scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1));
-      out.push_back({d.at(0, 0), side.flipped ? -n : n});
-    }
-  return out;
-}
 
 // Bernstein coefficients on [−1, 1], the remainder in each.
 DeviationPiece to_piece(const Vec<Model, 3>& numerator, const Model& denominator) {
@@ -116,13 +43,13 @@ class Bounder {
     // Coordinates relative to a point of the edge: what all points share is not rounded again and again.
     const Rational middle = (begin_ + end_) / Rational(2);
     const Vec<Rational, 2> at = evaluate_rational(join.a.parameters, middle);
-    const auto inside = [](const KnotVector<Rational>& k, const Rational& x) {
-      return x < k.domain_begin() ? k.domain_begin() : x > k.domain_end() ? k.domain_end() : x;
-    };
     const Vec<Rational, 3> origin =
         evaluate_rational(*join.a.surface, inside(join.a.surface->knots(Direction::u), at[0]),
                           inside(join.a.surface->knots(Direction::v), at[1]));
     const AffineMap<Rational> move = translation(-origin);
+    for (int s = 0; s < 2; ++s)
+      for (const bool end : {false, true})
+        poles_[s][end] = pole_at(s == 0 ? join.a : join.b, end ? end_ : begin_, middle);
     for (const TrimmedSide* side : {&join.a, &join.b})
       sides_.push_back({enclosed(apply(move, *side->surface)), &side->parameters, side->flipped,
                         has_unit_weights(side->parameters)});
@@ -135,7 +62,7 @@ class Bounder {
     out.angle = bound(Deviation::angle);
     out.plane_angle = bound(Deviation::plane_angle);
     for (const Piece& piece : pieces_)
-      for (const Side& side : sides_)
+      for (const MovedSide& side : sides_)
         for (const Rational& t : {piece.begin, piece.end}) {
           const Vec<Rational, 2> at = evaluate_rational(*side.curve, t);
           for (const Direction d : {Direction::u, Direction::v}) {
@@ -179,24 +106,106 @@ class Bounder {
                       (runs[s].spans_u.size() > 1 && is_wide(runs[s].u, Direction::u)) ||
                       (runs[s].spans_v.size() > 1 && is_wide(runs[s].v, Direction::v));
     }
+    const bool at_begin = begin == begin_ && (poles_[0][0].is_one || poles_[1][0].is_one);
+    const bool at_end = end == end_ && (poles_[0][1].is_one || poles_[1][1].is_one);
+    if (at_begin && at_end) ambiguous = worth_halving = true;
     const int limit = pieces_made_ > budget_.nodes ? depth : kDepth;
     if (ambiguous && worth_halving && depth < limit) {
+      // A knot line that is crossed leaves a sliver about the crossing in which both polynomials are taken.
+      if (const auto crossing = crossing_of(runs, begin, end)) {
+        const Rational sliver = (end_ - begin_) * from_double(kNarrow);
+        const Rational before = *crossing - sliver, after = *crossing + sliver;
+        if (begin < before) add(begin, before, depth + 1, out);
+        add(std::max(begin, before), std::min(after, end), kDepth, out);
+        if (after < end) add(after, end, depth + 1, out);
+        return;
+      }
       add(begin, middle, depth + 1, out);
       add(middle, end, depth + 1, out);
       return;
     }
     ++pieces_made_;
     Piece piece{begin, end, depth, {}, {}};
+    const bool pole = at_begin || at_end;
     for (const Frame& a : frames(sides_[0], runs[0]))
       for (const Frame& b : frames(sides_[1], runs[1])) {
         Vec<Model, 3> difference;
         for (int c = 0; c < 3; ++c) difference[c] = a.point[c] * b.point[3] - b.point[c] * a.point[3];
         piece.gap.push_back(to_piece(difference, a.point[3] * b.point[3]));
-        piece.angle.push_back(to_piece(cross(a.normal, b.normal), dot(a.normal, b.normal)));
+        if (!pole) piece.angle.push_back(to_piece(cross(a.normal, b.normal), dot(a.normal, b.normal)));
         for (int c = 0; c < 3; ++c)
           for (const Interval& x : {a.point[c].bernstein_range()}) size_ = std::max({size_, x.sup(), -x.inf()});
       }
+    if (pole) piece.angle = at_pole(runs, t, middle, end == end_);
     out.push_back(std::move(piece));
+  }
+
+  // A box that every positive combination of n and of the values in the box `rates` points into, from the origin: n is first
+  // made about as long as they are.
+  static Vec<Interval, 3> cone(const Vec<Interval, 3>& rates, const Vec<Rational, 3>& n) {
+    double longest = 0, own = 0;
+    for (int c = 0; c < 3; ++c) {
+      longest = std::max({longest, rates[c].sup(), -rates[c].inf()});
+      own = std::max(own, std::fabs(nearest_double(n[c])));
+    }
+    Vec<Interval, 3> out = rates;
+    if (!(own > 0 && longest > 0 && longest / own < kInfinity)) return out;
+    const Rational scale = from_double(longest / own);
+    for (int c = 0; c < 3; ++c) {
+      const Interval x = enclose(Rational(scale * n[c]));
+      out[c] = Interval(std::min(x.inf(), out[c].inf()), std::max(x.sup(), out[c].sup()));
+    }
+    return out;
+  }
+
+  // About where a parameter curve crosses a knot line between begin and end, found by bisection in double. Nothing depends
+  // on it but where pieces end.
+  std::optional<Rational> crossing_of(const Run (&runs)[2], const Rational& begin, const Rational& end) const {
+    for (int s = 0; s < 2; ++s)
+      for (const Direction d : {Direction::u, Direction::v}) {
+        const std::vector<int>& spans = d == Direction::u ? runs[s].spans_u : runs[s].spans_v;
+        if (spans.size() < 2) continue;
+        const double knot = nearest_double(sides_[s].surface.knots(d)[spans[spans.size() / 2]]);
+        const int span = sides_[s].curve->knots().find_span((begin + end) / Rational(2));
+        const auto beyond = [&](double t) {
+          const Vec<double, 3> h = evaluate_in_span<double>(*sides_[s].curve, span, t);
+          return h[d == Direction::u ? 0 : 1] - knot * h[2];
+        };
+        double low = nearest_double(begin), high = nearest_double(end);
+        const bool rising = beyond(low) < 0;
+        if (!(low < high) || rising == (beyond(high) < 0)) continue;
+        for (int i = 0; i < 60; ++i) {
+          const double between = low + (high - low) / 2;
+          if (!(low < between && between < high)) break;
+          ((beyond(between) < 0) == rising ? low : high) = between;
+        }
+        const Rational found = from_double(low);
+        if (begin <= found && found <= end) return found;
+      }
+    return std::nullopt;
+  }
+
+  // Each normal anywhere in its own enclosure: one coefficient.
+  std::vector<DeviationPiece> at_pole(const Run (&runs)[2], const Model& t, const Rational& inside, bool at_end) const {
+    std::vector<Vec<Interval, 3>> normals[2];
+    for (int s = 0; s < 2; ++s) {
+      if (const Pole& pole = poles_[s][at_end]; pole.is_one) {
+        normals[s] = normal_rates(sides_[s], runs[s], t, inside, at_end);
+        if (!pole.zero)
+          for (Vec<Interval, 3>& n : normals[s]) n = cone(n, pole.normal);
+        continue;
+      }
+      for (const Frame& frame : frames(sides_[s], runs[s]))
+        normals[s].push_back({{frame.normal[0].bernstein_range(), frame.normal[1].bernstein_range(),
+                               frame.normal[2].bernstein_range()}});
+    }
+    std::vector<DeviationPiece> out;
+    for (const auto& a : normals[0])
+      for (const auto& b : normals[1]) {
+        const Vec<Interval, 3> c = cross(a, b);
+        out.push_back({{{c[0], c[1], c[2], dot(a, b), Interval(1)}}});
+      }
+    return out;
   }
 
   struct Node {
@@ -208,7 +217,7 @@ class Bounder {
   TrimmedBound bound(Deviation what) {
     constexpr int kMaxDepth = 45;
     const double worst = what == Deviation::gap ? kInfinity : what == Deviation::angle ? 180 : 90;
-    const double floor = what == Deviation::gap ? std::ldexp(size_, -40) : 0x1p-34;  // degrees: 6e-11
+    const double floor = what == Deviation::gap ? std::ldexp(size_, -36) : 0x1p-34;  // degrees: 6e-11
     TrimmedBound out{0, 0, begin_, true};
     std::priority_queue<Node> queue;
     double settled = 0;  // of pieces that are not halved again
@@ -253,32 +262,42 @@ class Bounder {
   }
 
   const Budget budget_;
-  std::vector<Side> sides_;
+  std::vector<MovedSide> sides_;
   Rational begin_, end_;
   std::vector<Piece> pieces_;
+  Pole poles_[2][2];  // side, end
   double size_ = 0;
   int pieces_made_ = 0;
 };
 
-// The line that a side runs along, and its parameter along it at both ends of the edge.
+// The edge of its domain that a side runs along, and its parameter along it at both ends.
 struct StraightSide {
   IsoLine<Rational> line;
   Rational begin, end;
 };
 
 // A polynomial curve that is constant in one parameter and linear in the other: control points that are linear in the
-// averages of degree successive knots.
-std::optional<StraightSide> straight_side(const TrimmedSide& side) {
+// averages of degree successive knots. All within `slack` of the lengths of the domain.
+std::optional<StraightSide> straight_side(const TrimmedSide& side, const Rational& slack) {
   const ParameterCurve& curve = side.parameters;
   const KnotVector<Rational>& knots = curve.knots();
   const int p = curve.degree(), n = knots.control_count();
   if (!has_unit_weights(curve) || !knots.is_clamped()) return std::nullopt;
+  const auto near = [&](const Rational& x, const Rational& y, const KnotVector<Rational>& k) {
+    return abs(Rational(x - y)) <= slack * (k.domain_end() - k.domain_begin());
+  };
+  const auto at_end_of = [&](const KnotVector<Rational>& k, const Rational& x) {
+    return near(x, k.domain_begin(), k) ? k.domain_begin() : near(x, k.domain_end(), k) ? k.domain_end() : x;
+  };
   for (const Direction constant : {Direction::u, Direction::v}) {
     const int fixed = constant == Direction::u ? 0 : 1, running = 1 - fixed;
-    const Rational& value = curve.points()[0][fixed];
-    const Rational &begin = curve.points().front()[running], &end = curve.points().back()[running];
     const KnotVector<Rational>&across = side.surface->knots(constant), &along = side.surface->knots(other(constant));
-    if (!across.in_domain(value) || !along.in_domain(begin) || !along.in_domain(end) || begin == end) continue;
+    const Rational value = at_end_of(across, curve.points().front()[fixed]);
+    // Inside a surface the face may lie on either side of the line, and the exact classes would not know on which.
+    if (value != across.domain_begin() && value != across.domain_end()) continue;
+    const Rational begin = at_end_of(along, curve.points().front()[running]),
+                   end = at_end_of(along, curve.points().back()[running]);
+    if (!along.in_domain(begin) || !along.in_domain(end) || begin == end) continue;
     bool straight = true;
     for (int i = 0; i < n && straight; ++i) {
       Rational average(0);
@@ -286,9 +305,8 @@ std::optional<StraightSide> straight_side(const TrimmedSide& side) {
       average /= Rational(p);
       const Rational linear =
           begin + (end - begin) * (average - knots.domain_begin()) / (knots.domain_end() - knots.domain_begin());
-      straight = curve.points()[i][fixed] == value && curve.points()[i][running] == linear;
+      straight = near(curve.points()[i][fixed], value, across) && near(curve.points()[i][running], linear, along);
     }
-    // Inside a smooth surface both sides of the line say the same; at an edge only one exists.
     const patchproof::Side from = value == across.domain_begin() ? patchproof::Side::right : patchproof::Side::left;
     if (straight) return StraightSide{{constant, value, from}, begin, end};
   }
@@ -297,15 +315,9 @@ std::optional<StraightSide> straight_side(const TrimmedSide& side) {
 
 }  // namespace
 
-std::optional<Join<Rational>> to_isoparametric(const TrimmedJoin& join) {
-  const auto a = straight_side(join.a), b = straight_side(join.b);
+std::optional<Join<Rational>> to_isoparametric(const TrimmedJoin& join, const Rational& slack) {
+  const auto a = straight_side(join.a, slack), b = straight_side(join.b, slack);
   if (!a || !b) return std::nullopt;
-  // Inside a surface the face may lie on either side of the line, and there the exact classes would not know which.
-  for (const auto& [side, straight] : {std::pair(&join.a, &*a), std::pair(&join.b, &*b)}) {
-    const KnotVector<Rational>& across = side->surface->knots(straight->line.constant);
-    if (straight->line.value != across.domain_begin() && straight->line.value != across.domain_end())
-      return std::nullopt;
-  }
   Join<Rational> out;
   out.line_a = a->line;
   out.line_b = b->line;

@@ -18,7 +18,8 @@ enum class JoinKind {
   isoparametric,  // edge to edge of two patches
   t_junction,     // at least one of the edges only in part
   seam,           // two edges of one patch
-  knot_line       // a line inside one patch where its knots allow a kink or a gap
+  knot_line,      // a line inside one patch where its knots allow a kink or a gap
+  trimmed         // an edge of trimmed faces (trimmed_join.h)
 };
 
 enum class PairingKind {

@@ -24,6 +24,7 @@
 
 #include <optional>
 
+#include "patchproof/join/certificate.h"
 #include "patchproof/join/deviation.h"
 #include "patchproof/join/join.h"
 #include "patchproof/patch/bspline_patch.h"
@@ -46,7 +47,7 @@ struct TrimmedJoin {
 struct TrimmedBound {
   double lower = 0, upper = 0;  // gap: model units;  angles: degrees
   Rational t;                   // the witness of `lower`
-  bool converged = true;        // upper − lower ≤ 1 % of upper, or upper below 2⁻⁴⁰ of the edge's size
+  bool converged = true;        // upper − lower ≤ 1 % of upper, or upper below 2⁻³⁶ of the edge's size
 };
 
 struct TrimmedBounds {
@@ -57,8 +58,12 @@ struct TrimmedBounds {
 // REQUIRES (debug) a RoundingGuard alive.
 TrimmedBounds bound_trimmed(const TrimmedJoin& join, const Budget& budget = {});
 
-// The same join as two edges of the surfaces' domains, whole or in part, when it is one. Which side of the edge the faces
-// lie on is then known, which the exact classes need; flipped normals are not their business.
-std::optional<Join<Rational>> to_isoparametric(const TrimmedJoin& join);
+// The same join as two edges of the surfaces' domains, whole or in part, when the parameter curves run along them within
+// `slack` of the domains' lengths (rounding leaves them there: 2⁻⁴⁰ is that). The pairing is then that of the edges.
+std::optional<Join<Rational>> to_isoparametric(const TrimmedJoin& join, const Rational& slack = Rational(0));
+
+// What can be said of the join: by certify_join where it is isoparametric, else the bounds (rung "taylor"). Bounds prove no
+// class; a gap with a lower bound above 0 refutes C0, with exact values at the witness.
+Certificate certify_trimmed(const TrimmedJoin& join, const Request& request = {});
 
 }  // namespace patchproof

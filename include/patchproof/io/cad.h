@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// CAD models: faces with trimmed surfaces, and the edges where they meet, from STEP, IGES and BREP files.
+//
+// Numbers are the doubles that Open CASCADE delivers, taken exactly. Every surface becomes a B-spline (rational where it
+// must be): planes, cylinders, cones, spheres, tori, extrusions and revolutions exactly as Open CASCADE's conversion of
+// surfaces and parameter curves together has it; what it approximates is said in a note.
+//
+// read_cad_model stands in the optional target patchproof::occt; certify_cad needs no Open CASCADE.
+//
+// ENSURES  (1) every edge of the file is listed once, as what it is: shared, seam, free, more than two faces, degenerate,
+//          or unusable with a reason;  (2) nothing is healed: no gap closed, no tolerance changed, no edge merged;
+//          (3) the denominators of all surfaces are certified to have no zero; a face that is not usable is named in the
+//          notes, and its edges are unusable.
+// ERRORS   of read_cad_model: cannot_open, unknown_format, syntax (Open CASCADE cannot read the file), wrong_count (no face).
+// TEST     tests/io/cad_test.cpp
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "patchproof/error.h"
+#include "patchproof/io/report.h"
+#include "patchproof/join/trimmed_join.h"
+
+namespace patchproof {
+
+struct CadFace {
+  std::string label;  // "#123" in STEP files, "face 7"; with the name if there is one
+  std::string kind;   // of the surface in the file: "plane", "cylinder", …
+  BsplinePatch<Rational, 4> surface;
+};
+
+enum class CadEdgeKind {
+  shared,        // by two faces
+  seam,          // twice of one face
+  free,          // of one face
+  non_manifold,  // of more than two
+  degenerate,    // shrunk to a point, as in the pole of a sphere
+  unusable       // see the note
+};
+const char* to_string(CadEdgeKind kind);
+
+// Normals at an edge are compared by the side on which the faces lie, so that faces of one shell that are turned
+// differently do not look folded.
+struct CadUse {
+  int face;
+  bool forward;                          // the face lies to the left of its parameter curve in the (u, v) plane
+  BsplineCurve<Rational, 3> parameters;  // homogeneous (w·u, w·v, w), over the edge's range
+};
+
+struct CadEdge {
+  std::string label;  // "#45", "edge 12"
+  CadEdgeKind kind;
+  std::vector<CadUse> uses;
+  double tolerance = 0;  // of the file, model units
+  std::string note;      // why it is unusable, or what is odd
+};
+
+struct CadModel {
+  std::string path, format, sha256, units;
+  std::vector<CadFace> faces;
+  std::vector<CadEdge> edges;
+  std::vector<std::string> notes;
+};
+
+// By extension (.step .stp .iges .igs .brep .rle) or content.
+bool looks_like_cad(const std::string& path);
+
+// Only in the target patchproof::occt.
+Result<CadModel> read_cad_model(const std::string& path);
+
+// Every shared edge and seam, and each pair of neighbours at an edge of more than two faces.
+Report certify_cad(const CadModel& model, const CertifyOptions& options = {});
+
+}  // namespace patchproof

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patchproof/io/cad.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+
+#include "patchproof/scalar/parse_scalar.h"
+
+namespace patchproof {
+namespace {
+
+struct Pair {
+  int edge;
+  const CadUse *a, *b;
+};
+
+// The joins of a model: neighbours at each edge.
+std::vector<Pair> pairs_of(const CadModel& model) {
+  std::vector<Pair> out;
+  for (std::size_t e = 0; e < model.edges.size(); ++e) {
+    const CadEdge& edge = model.edges[e];
+    if (edge.kind != CadEdgeKind::shared && edge.kind != CadEdgeKind::seam && edge.kind != CadEdgeKind::non_manifold)
+      continue;
+    for (std::size_t i = 0; i + 1 < edge.uses.size(); ++i)
+      out.push_back({static_cast<int>(e), &edge.uses[i], &edge.uses[i + 1]});
+  }
+  return out;
+}
+
+ReportedSide reported_side(const CadUse& use, const std::string& edge) {
+  const KnotVector<Rational>& range = use.parameters.knots();
+  return {use.face,
+          edge,
+          nearest_double(range.domain_begin()),
+          nearest_double(range.domain_end()),
+          to_text(range.domain_begin()),
+          to_text(range.domain_end())};
+}
+
+}  // namespace
+
+const char* to_string(CadEdgeKind kind) {
+  switch (kind) {
+    case CadEdgeKind::shared: return "shared";
+    case CadEdgeKind::seam: return "seam";
+    case CadEdgeKind::free: return "free";
+    case CadEdgeKind::non_manifold: return "non-manifold";
+    case CadEdgeKind::degenerate: return "degenerate";
+    case CadEdgeKind::unusable: return "unusable";
+  }
+  return "unknown";
+}
+
+bool looks_like_cad(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string head(4096, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  // IGES: 80 columns, the 73rd of the first line is an S.
+  return head.find("ISO-10303-21") != std::string::npos || head.find("DBRep_DrawableShape") != std::string::npos ||
+         head.find("CASCADE Topology") != std::string::npos ||
+         (head.size() > 80 && head[72] == 'S' && (head[80] == '\n' || head[80] == '\r'));
+}
+
+Report certify_cad(const CadModel& model, const CertifyOptions& options) {
+  Report report;
+  report.file = model.path;
+  report.format = model.format;
+  report.sha256 = model.sha256;
+  report.units = model.units;
+  report.decimals = Decimals::binary64;
+  report.notes = model.notes;
+  report.request = options.request;
+  for (const CadFace& face : model.faces) report.patch_names.push_back(face.label);
+  for (const CadEdge& edge : model.edges)
+    if (!edge.note.empty()) report.notes.push_back("edge " + edge.label + ": " + edge.note);
+  const std::vector<Pair> pairs = pairs_of(model);
+  report.joins.resize(pairs.size());
+  std::atomic<std::size_t> done{0};
+  tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+      const auto [e, a, b] = pairs[i];
+      const CadEdge& edge = model.edges[e];
+      // Across a smooth edge one face lies to the left and the other to the right, under equal normals.
+      const auto side = [&](const CadUse& use, bool flipped) {
+        return TrimmedSide{&model.faces[use.face].surface, use.parameters, flipped};
+      };
+      ReportedJoin& out = report.joins[i];
+      const TrimmedJoin join{side(*a, !a->forward), side(*b, b->forward)};
+      out.id = static_cast<int>(i) + 1;
+      out.kind = edge.kind == CadEdgeKind::seam ? JoinKind::seam : JoinKind::trimmed;
+      out.a = reported_side(*a, edge.label);
+      out.b = reported_side(*b, edge.label);
+      out.certificate = certify_trimmed(join, options.request);
+      out.judgement = judge(out.certificate, options.request);
+      const std::size_t now = ++done;
+      if (options.progress) options.progress(now, pairs.size());
+    });
+  });
+  return report;
+}
+
+}  // namespace patchproof

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+
+#include "patchproof/join/certify.h"
+#include "patchproof/join/trimmed_join.h"
+#include "patchproof/patch/rational_patch.h"
+#include "patchproof/scalar/parse_scalar.h"
+
+namespace patchproof {
+namespace {
+
+using Parameters = Vec<Rational, 2>;
+
+// The parameters at t, held in the domain (where the last digits of a curve leave it).
+Parameters parameters_at(const TrimmedSide& side, const Rational& t) {
+  Parameters at = evaluate_rational(side.parameters, t);
+  for (const Direction d : {Direction::u, Direction::v}) {
+    const KnotVector<Rational>& k = side.surface->knots(d);
+    Rational& x = at[d == Direction::u ? 0 : 1];
+    x = std::clamp(x, k.domain_begin(), k.domain_end());
+  }
+  return at;
+}
+
+Vec<Rational, 3> point_at(const TrimmedSide& side, const Parameters& at) {
+  return evaluate_rational(*side.surface, at[0], at[1]);
+}
+
+EnclosedMaximum enclosed(const TrimmedJoin& join, const TrimmedBound& bound) {
+  EnclosedMaximum out{bound.lower, bound.upper, {}, bound.converged};
+  const Parameters a = parameters_at(join.a, bound.t), b = parameters_at(join.b, bound.t);
+  const Vec<Rational, 3> point = point_at(join.a, a);
+  for (int i = 0; i < 2; ++i) out.at.a[i] = nearest_double(a[i]), out.at.b[i] = nearest_double(b[i]);
+  for (int c = 0; c < 3; ++c) out.at.point[c] = nearest_double(point[c]);
+  return out;
+}
+
+Witness gap_witness(const TrimmedJoin& join, const Rational& t) {
+  const Parameters a = parameters_at(join.a, t), b = parameters_at(join.b, t);
+  const Vec<Rational, 3> difference = point_at(join.a, a) - point_at(join.b, b);
+  return {"x - y",
+          {to_text(a[0]), to_text(a[1])},
+          {to_text(b[0]), to_text(b[1])},
+          {to_text(difference[0]), to_text(difference[1]), to_text(difference[2])}};
+}
+
+}  // namespace
+
+Certificate certify_trimmed(const TrimmedJoin& join, const Request& request) {
+  const Rational slack = from_double(0x1p-40);
+  if (const auto lines = to_isoparametric(join, slack))
+    return certify_join(*join.a.surface, *join.b.surface, *lines, request);
+  const RoundingGuard guard;
+  Budget budget;
+  budget.nodes = 500;
+  budget.deadline = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                           std::chrono::duration<double>(request.seconds_per_join));
+  const TrimmedBounds bounds = bound_trimmed(join, budget);
+  Certificate out;
+  out.rung = "taylor";
+  out.gap = enclosed(join, bounds.gap);
+  out.angle = enclosed(join, bounds.angle);
+  out.plane_angle = enclosed(join, bounds.plane_angle);
+  out.orientation = out.angle.upper < 90   ? Orientation::smooth
+                    : out.angle.lower > 90 ? Orientation::mixed  // somewhere above 90°; a cusp only if everywhere
+                                           : Orientation::unknown;
+  if (out.gap.lower > 0) {
+    out.c0 = {Verdict::refuted, "the edge curves differ", gap_witness(join, bounds.gap.t)};
+    for (ExactClass* c : {&out.c1, &out.c2, &out.g1}) *c = {Verdict::refuted, "not C0", std::nullopt};
+  } else {
+    for (ExactClass* c : {&out.c0, &out.c1, &out.c2, &out.g1})
+      *c = {Verdict::undecided, "a trimmed edge is bounded, not decided", std::nullopt};
+  }
+  return out;
+}
+
+}  // namespace patchproof

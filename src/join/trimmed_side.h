@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// One side of a trimmed join on a part of the edge: Taylor models of its parameters, points and normals, on each polynomial
+// that may be meant; and what its normal does at the ends of the edge.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "patchproof/join/trimmed_join.h"
+#include "patchproof/patch/rational_patch.h"
+#include "patchproof/scalar/power_series.h"
+#include "patchproof/scalar/taylor_model.h"
+
+namespace patchproof::trimmed {
+
+constexpr int kOrder = 7;
+using Model = TaylorModel<kOrder>;
+using Surface = BsplinePatch<Interval, 4, Rational>;
+using ParameterCurve = BsplineCurve<Rational, 3>;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// One side, with its surface moved so that coordinates are as small as the edge allows.
+struct MovedSide {
+  Surface surface;
+  const ParameterCurve* curve;
+  bool flipped, polynomial;
+};
+
+inline bool has_unit_weights(const ParameterCurve& curve) {
+  return std::all_of(curve.points().begin(), curve.points().end(), [](const auto& p) { return p[2] == Rational(1); });
+}
+
+inline Surface enclosed(const BsplinePatch<Rational, 4>& patch) {
+  std::vector<Vec<Interval, 4>> net;
+  for (const auto& p : patch.net()) net.push_back({{enclose(p[0]), enclose(p[1]), enclose(p[2]), enclose(p[3])}});
+  return {patch.knots(Direction::u), patch.knots(Direction::v), std::move(net)};
+}
+
+// The spans of the knots that a parameter in [x.inf, x.sup] may lie in; the outermost ones reach to infinity.
+inline std::vector<int> spans_meeting(const KnotVector<Rational>& knots, const Interval& x) {
+  const auto clamped = [&](double value) {
+    const Rational r = from_double(value);
+    return r < knots.domain_begin() ? knots.domain_begin() : r > knots.domain_end() ? knots.domain_end() : r;
+  };
+  const int first = knots.find_span(clamped(x.inf()), patchproof::Side::left),
+            last = knots.find_span(clamped(x.sup()), patchproof::Side::right);
+  std::vector<int> out;
+  for (int span = first; span <= last; ++span)
+    if (knots[span] < knots[span + 1]) out.push_back(span);
+  return out;
+}
+
+// Where a side runs on a part of the edge: models of u and v, and the spans that they meet.
+struct Run {
+  Model u, v;
+  std::vector<int> spans_u, spans_v;
+  std::size_t combinations() const { return spans_u.size() * spans_v.size(); }
+};
+
+inline Run run_of(const MovedSide& side, const Model& t, const Rational& inside) {
+  const int span = side.curve->knots().find_span(inside);
+  const Vec<Model, 3> h = evaluate_in_span<Model>(*side.curve, span, t);
+  Run run;
+  run.u = side.polynomial ? h[0] : h[0] / h[2];
+  run.v = side.polynomial ? h[1] : h[1] / h[2];
+  const Interval u = run.u.bernstein_range(), v = run.v.bernstein_range();
+  if (!std::isfinite(u.inf()) || !std::isfinite(u.sup()) || !std::isfinite(v.inf()) || !std::isfinite(v.sup()))
+    return run;
+  run.spans_u = spans_meeting(side.surface.knots(Direction::u), u);
+  run.spans_v = spans_meeting(side.surface.knots(Direction::v), v);
+  return run;
+}
+
+// A homogeneous point and w⁴ times the face's normal.
+struct Frame {
+  Vec<Model, 4> point;
+  Vec<Model, 3> normal;
+};
+inline std::vector<Frame> frames(const MovedSide& side, const Run& run) {
+  std::vector<Frame> out;
+  for (const int i : run.spans_u)
+    for (const int j : run.spans_v) {
+      const auto d = partial_derivatives_in_span<Model>(side.surface, i, j, run.u, run.v, 1, 1);
+      const Vec<Model, 3> n = scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1));
+      out.push_back({d.at(0, 0), side.flipped ? -n : n});
+    }
+  return out;
+}
+
+// Encloses the values of n' on a piece, for each combination of spans; seen from the other end where `at_end`.
+inline std::vector<Vec<Interval, 3>> normal_rates(const MovedSide& side, const Run& run, const Model& t,
+                                                  const Rational& inside, bool at_end) {
+  using Series = PowerSeries<Model, 1>;
+  const Vec<Series, 3> h =
+      evaluate_in_span<Series>(*side.curve, side.curve->knots().find_span(inside), Series::variable(0, t, 1));
+  const Series u = side.polynomial ? h[0] : h[0] / h[2], v = side.polynomial ? h[1] : h[1] / h[2];
+  std::vector<Vec<Interval, 3>> out;
+  for (const int i : run.spans_u)
+    for (const int j : run.spans_v) {
+      const auto d = partial_derivatives_in_span<Series>(side.surface, i, j, u, v, 1, 1);
+      const Vec<Series, 3> n = scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1));
+      Vec<Interval, 3> rate;
+      for (int c = 0; c < 3; ++c) rate[c] = n[c].coefficient({1}).bernstein_range();
+      out.push_back(side.flipped != at_end ? -rate : rate);
+    }
+  return out;
+}
+
+inline const Rational& inside(const KnotVector<Rational>& k, const Rational& x) {
+  return x < k.domain_begin() ? k.domain_begin() : x > k.domain_end() ? k.domain_end() : x;
+}
+
+// w⁴ times the face's normal at the begin or the end of the edge, exactly.
+inline Vec<Rational, 3> end_normal(const TrimmedSide& side, const Rational& t) {
+  const Vec<Rational, 2> at = evaluate_rational(side.parameters, t);
+  const Rational u = inside(side.surface->knots(Direction::u), at[0]),
+                 v = inside(side.surface->knots(Direction::v), at[1]);
+  const auto d = partial_derivatives(*side.surface, u, v, 1, 1);
+  const Vec<Rational, 3> n = scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1));
+  return side.flipped ? -n : n;
+}
+
+inline Rational square_of(const Vec<Rational, 3>& v) { return dot(v, v); }
+
+// A pole: an end of the edge where a side's normal is zero, or so short beside the one amid the edge that only rounding
+// keeps it from zero. Then n(t) = n(t_0) + (t − t_0) n'(ξ) points into the cone of n(t_0) and the values of n'.
+struct Pole {
+  bool is_one = false;
+  bool zero = true;
+  Vec<Rational, 3> normal;  // n(t_0)
+};
+inline Pole pole_at(const TrimmedSide& side, const Rational& end, const Rational& middle) {
+  const Rational short_square = from_double(0x1p-60);
+  Pole out;
+  out.normal = end_normal(side, end);
+  out.zero = detail::is_zero_point(out.normal);
+  out.is_one = square_of(out.normal) <= short_square * square_of(end_normal(side, middle));
+  return out;
+}
+
+}  // namespace patchproof::trimmed
