@@ -92,6 +92,24 @@ TEST(FunctionTensor, Erratum_E_LAR_02_TheSumIsTakenOnce) {
   EXPECT_EQ(evaluate(bezier_surface<Rational, 3>(3, bicubic_net).value(), place_of<2>({u, v})), p(10, 9, 0));
 }
 
+// The toolbox is described and never coded, and two surfaces are called bilinear that are not: the second differences of
+// the biquadratic and the bicubic one do not vanish, those of the bilinear one do.
+TEST(FunctionTensor, Erratum_E_LAR_14_TheToolboxExistsAndDegreesAreWhatTheyAre) {
+  const Surface bicubic = bezier_surface<Rational, 3>(3, bicubic_net).value();
+  const Surface bilinear =
+      bezier_surface<Rational, 3>(1, Net{{p(0, 0, 0), p(2, -4, 2)}, {p(0, 3, 1), p(4, 0, 0)}}).value();
+  const Surface zero(p(0, 0, 0));
+  EXPECT_FALSE(identical(derivative(derivative(bicubic, 0), 0), zero));
+  EXPECT_TRUE(identical(derivative(derivative(bilinear, 0), 0), zero));
+  // S = ⟨U ⊗ V, constants⟩, component by component.
+  std::vector<Rational> x;
+  for (const auto& row : bicubic_net)
+    for (const Surface& point : row) x.push_back(evaluate(point, place_of<2>({0, 0}))[0]);
+  const auto bases = tensor_product(bernstein_functions<Rational, 2>(0, 3), bernstein_functions<Rational, 2>(1, 3));
+  const auto inner = inner_product(bases, constant_functions<Rational, 2>({4, 4}, x).value()).value();
+  EXPECT_TRUE(identical(inner, component(bicubic, 0)));
+}
+
 // Rows that are functions of the whole parameter point.
 TEST(FunctionTensor, NetsOfMaps) {
   const Surface moving = bezier(1, {p(0, 0, 0), p(0, 0, 7)});

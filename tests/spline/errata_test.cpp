@@ -226,5 +226,48 @@ TEST(Errata, Erratum_E_LAR_16_IntegersAreNotDivided) {
   EXPECT_EQ(basis_derivative(ours, q(1), 0), numbers_of("1/4 1/2 1/4"));
 }
 
+// A derivative with respect to arc length would have norm 1. The velocity of the nine-point circle has norm √2 at its knots
+// and another between them.
+TEST(Errata, Erratum_E_LAR_11_TheParameterIsNotArcLength) {
+  const auto circle = lar_circle();
+  const auto speed_squared = [&](const Quadratic& t) {
+    const auto d = rational_derivatives(circle, t, 1);
+    return d[1][0] * d[1][0] + d[1][1] * d[1][1];
+  };
+  EXPECT_TRUE(speed_squared(Quadratic(1)) == Quadratic(2));
+  EXPECT_TRUE(speed_squared(Quadratic(q(1, 2))) == in_root_two("48", "-32"));
+  EXPECT_FALSE(speed_squared(Quadratic(1)) == Quadratic(1));
+}
+
+// One parameter gives a curve, in whatever space: the vector of all nine basis functions runs through the hyperplane
+// Σ x_i = 1 of R⁹, and its derivative along the only parameter is not zero.
+TEST(Errata, Erratum_E_LAR_15_TheBasisIsACurveInAHyperplane) {
+  const auto knots = KnotVector<Rational>::make(2, circle_knots()).value();
+  for (const Rational& t : {q(0), q(1, 3), q(1), q(5, 2), q(4)}) {
+    Rational sum(0), rate(0);
+    bool moves = false;
+    for (const Rational& x : basis(knots, t)) sum += x;
+    for (const Rational& x : basis_derivative(knots, t, 1)) {
+      rate += x;
+      moves = moves || x != 0;
+    }
+    EXPECT_EQ(basis(knots, t).size(), 9u);
+    EXPECT_EQ(sum, 1);
+    EXPECT_EQ(rate, 0);
+    EXPECT_TRUE(moves);
+  }
+}
+
+// If B_{i,h} were one polynomial, its pieces on two spans would agree. At t = 1/2 the first piece of a quadratic function
+// on knots 0 … 3 is 1/8; the polynomial of its second piece is 1/2 + t' − t'² there (t' = t − 1 = −1/2), that is −1/4.
+TEST(Errata, Erratum_E_LAR_17_FunctionsArePiecewisePolynomials) {
+  const auto knots = KnotVector<Rational>::make(2, {q(-2), q(-1), q(0), q(1), q(2), q(3), q(4), q(5)}).value();
+  // N_2 lives on [0, 3]: it is the last function of the span [0, 1] and the middle one of [1, 2].
+  const Rational first = basis_in_span<Rational>(knots, 2, q(1, 2))[2],
+                 second = basis_in_span<Rational>(knots, 3, q(1, 2))[1];
+  EXPECT_EQ(first, q(1, 8));
+  EXPECT_EQ(second, q(-1, 4));
+}
+
 }  // namespace
 }  // namespace patchproof::test
