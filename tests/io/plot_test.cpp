@@ -188,7 +188,7 @@ TEST(Plot, Law2_SizeAndPlaceDoNotMatter) {
     std::vector<Point> points = c.curve.points();
     for (Point& p : points) p = {{p[0] * factor + shift, p[1] * factor, p[2], p[3]}};
     c.curve = BsplineCurve<Rational, 4>(c.curve.knots(), points);
-    return of_class(svg_of(model_of({c})), "curve")[0].attribute("d").as_string();
+    return std::string(of_class(svg_of(model_of({c})), "curve")[0].attribute("d").as_string());
   };
   const std::string reference = scaled(q(1), q(0));
   EXPECT_EQ(scaled(from_double(std::ldexp(1, 900)), q(0)), reference);
