@@ -10,6 +10,7 @@
 
 #include "cli/patch_smoothness.h"
 #include "patchproof/patch/denominator.h"
+#include "patchproof/patch/transfinite_expand.h"
 #include "patchproof/spline/curve_denominator.h"
 
 namespace patchproof::cli {
@@ -221,10 +222,22 @@ std::string describe_patch(std::size_t index, const ModelPatch<T>& p) {
 }
 
 template <ExactField T>
+std::string describe_solid(std::size_t index, const ModelSolid<T>& s) {
+  std::string text = fmt::format("solid {}{}\n", index, quoted(s.name));
+  for (std::size_t d = 0; d < 3; ++d) {
+    const KnotVector<T> knots = spline_knots(s.map, d);
+    text += fmt::format("  {}: degree {}, domain [{}, {}], {}\n", "uvw"[d], knots.degree(), brief(knots.domain_begin()),
+                        brief(knots.domain_end()), plural(knots.breaks().size() - 1, "span"));
+  }
+  return text;
+}
+
+template <ExactField T>
 std::string describe_all(const Model<T>& model) {
   std::string text;
   for (std::size_t i = 0; i < model.curves.size(); ++i) text += describe_curve(i, model.curves[i]);
   for (std::size_t i = 0; i < model.patches.size(); ++i) text += describe_patch(i, model.patches[i]);
+  for (std::size_t i = 0; i < model.solids.size(); ++i) text += describe_solid(i, model.solids[i]);
   if (!model.joins.empty()) text += plural(model.joins.size(), "join") + " declared in the file\n";
   return text;
 }

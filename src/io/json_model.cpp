@@ -29,6 +29,11 @@ enum Node {
   kControlPoint,  // where a curve might stand
   kParameters,
   kParameter,
+  kSolids,
+  kSolid,
+  kSolidBlending,
+  kSolidControls,
+  kSolidPatch,
   kJoins,
   kJoin,
   kSideA,
@@ -45,6 +50,7 @@ constexpr JsonRule kRules[] = {
     {kRoot, "units", kUnits, JsonType::string},
     {kRoot, "curves", kCurves, JsonType::array},
     {kRoot, "patches", kPatches, JsonType::array},
+    {kRoot, "solids", kSolids, JsonType::array},
     {kRoot, "joins", kJoins, JsonType::array},
     {kCurves, "", kCurve, JsonType::object},
     {kCurve, "name", kName, JsonType::string},
@@ -98,6 +104,14 @@ constexpr JsonRule kRules[] = {
     {kPoint, "", kCoordinate, JsonType::number},
     {kWeightNet, "", kWeightRow, JsonType::array},
     {kWeightRow, "", kWeight, JsonType::number},
+    {kSolids, "", kSolid, JsonType::object},
+    {kSolid, "name", kName, JsonType::string},
+    {kSolid, "transfinite", kSolidBlending, JsonType::object, true},
+    {kSolidBlending, "degree", kDegree, JsonType::integer, true},
+    {kSolidBlending, "knots", kKnots, JsonType::array},
+    {kSolidBlending, "controls", kSolidControls, JsonType::array, true},
+    {kSolidControls, "", kSolidPatch, JsonType::integer},
+    {kSolidControls, "", kControlPoint, JsonType::array},
     {kJoins, "", kJoin, JsonType::object},
     {kJoin, "a", kSideA, JsonType::object, true},
     {kJoin, "b", kSideB, JsonType::object, true},
@@ -127,6 +141,17 @@ class ModelVisitor final : public JsonVisitor {
         curve_.start(1, walker);
         current_ = &curve_;
         break;
+      case kSolid:
+        solid_.emplace();
+        patch_.start(1, walker);  // its name
+        current_ = &patch_;
+        break;
+      case kSolidBlending:
+        solid_->at = walker.here();
+        solid_->pointer = walker.pointer();
+        blending_.start(1, walker);
+        enclosing_ = current_ = &blending_;
+        break;
       case kControlPoint:
         curve_.start_point(walker);
         current_ = &curve_;
@@ -147,6 +172,15 @@ class ModelVisitor final : public JsonVisitor {
       case kTransfinite:
         construction_->blending = blending_.raw();
         enclosing_ = current_ = &patch_;
+        break;
+      case kSolidBlending:
+        solid_->blending = blending_.raw();
+        enclosing_ = current_ = &patch_;
+        break;
+      case kSolid:
+        solid_->name = patch_.raw().name;
+        solids_.push_back(std::move(*solid_));
+        solid_.reset();
         break;
       case kCurve:
       case kControlPoint: return finish_curve(walker);
@@ -176,6 +210,7 @@ class ModelVisitor final : public JsonVisitor {
           return walker.error(ErrorCode::syntax, "a blending runs along \"u\" or \"v\"", text);
         construction_->along_u = text == "u";
         break;
+      case kSolidPatch: solid_->controls.push_back({text, {}}); break;
       case kParameter: construction_->parameters[list_].push_back(text); break;
       case kReversed: join_.reversed = text == "true"; break;
       case kSidePatch: {
@@ -230,6 +265,10 @@ class ModelVisitor final : public JsonVisitor {
   std::optional<Error> finish_curve(const JsonWalker& walker) {
     if (std::optional<Error> error = curve_.finish(source_, walker)) return error;
     current_ = enclosing_;
+    if (solid_) {
+      solid_->controls.push_back({"", curve_.raw()});
+      return std::nullopt;
+    }
     if (!construction_) return sink_.add(curve_.raw());
     construction_->curves[walker.key().empty() ? list_ : walker.key()].push_back(curve_.raw());
     return std::nullopt;
@@ -249,6 +288,8 @@ class ModelVisitor final : public JsonVisitor {
                            patches == 0 ? std::string("the model has no patches, only curves")
                                         : fmt::format("the model has patches 0 … {}", patches - 1),
                            largest_->text, fmt::format("/joins/{}/{}/patch", largest_->join, largest_->side));
+    for (const RawSolid& solid : solids_)
+      if (std::optional<Error> error = sink_.add(solid)) return error;
     sink_.joins = std::move(joins_);
     return std::nullopt;
   }
@@ -259,7 +300,9 @@ class ModelVisitor final : public JsonVisitor {
   JsonSpline* current_ = &patch_;    // which of them is being read
   JsonSpline* enclosing_ = &patch_;  // and which one after the curve
   std::optional<RawConstruction> construction_;
-  std::string list_;  // the key of the list last begun in it
+  std::optional<RawSolid> solid_;
+  std::vector<RawSolid> solids_;  // delivered at the end: they refer to patches
+  std::string list_;              // the key of the list last begun in it
   std::vector<DeclaredJoin> joins_;
   struct Reference {
     int patch;

@@ -16,6 +16,7 @@ class ModelBuilder final : public ModelSink {
 
   std::optional<Error> add(const RawSpline& spline) override;
   std::optional<Error> add(const RawConstruction& construction) override;
+  std::optional<Error> add(const RawSolid& solid) override;
   std::optional<Error> first_bad_number(const RawSpline& spline) override;
   std::size_t patch_count() const override { return model_.patches.size(); }
   std::size_t curve_count() const override { return model_.curves.size(); }
@@ -47,6 +48,7 @@ class ModelBuilder final : public ModelSink {
   std::optional<ModelPatch<T>> patch(const RawSpline& raw);
   std::optional<Construction<T>> construction(const RawConstruction& raw);
   std::optional<ModelPatch<T>> patch(const RawConstruction& raw);
+  std::optional<typename ModelSolid<T>::Control> control(const RawSolid& raw, std::size_t k);
   bool fail(ErrorCode code, std::string_view at, std::string message, std::string_view values,
             std::string_view pointer);
 

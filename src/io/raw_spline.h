@@ -81,12 +81,27 @@ struct RawConstruction {
   bool along_u = true;                                              // transfinite: the direction of the blending
 };
 
+// A solid made from patches of the model and points.
+struct RawSolid {
+  struct Control {
+    std::string_view patch;  // its index, or "" for a point
+    RawSpline point;
+  };
+  std::string name;
+  std::string_view at;
+  std::string pointer;  // of the construction
+  RawSpline blending;   // degree and knots only
+  std::vector<Control> controls;
+};
+
 // Where readers deliver. The first error ends the reading.
 class ModelSink {
  public:
   virtual ~ModelSink() = default;
   virtual std::optional<Error> add(const RawSpline& spline) = 0;
   virtual std::optional<Error> add(const RawConstruction& construction) = 0;
+  // After all patches.
+  virtual std::optional<Error> add(const RawSolid& solid) = 0;
   // The first text among the numbers that is none: what a reader asks when a file ends inside a spline, because two
   // numbers run together make a file seem too short.
   virtual std::optional<Error> first_bad_number(const RawSpline& spline) = 0;

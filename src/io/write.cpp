@@ -136,6 +136,28 @@ void patch(Buffer& out, const ModelPatch<T>& patch) {
   put(out, "\n    }}");
 }
 
+template <ExactField T>
+void solid(Buffer& out, const ModelSolid<T>& solid) {
+  PATCHPROOF_REQUIRES(solid.knots, "write_model_json: the format holds solids that are made from patches and points");
+  begin_spline(out, solid.name);
+  put(out, "      \"transfinite\": {{\"degree\": {}, ", solid.knots->degree());
+  if (!(*solid.knots == KnotVector<T>::bezier(solid.knots->degree()))) {
+    put(out, "\"knots\": ");
+    knot_list(out, *solid.knots);
+    put(out, ", ");
+  }
+  put(out, "\"controls\": ");
+  list(out, static_cast<int>(solid.controls.size()), ", ", [&](int k) {
+    const auto& control = solid.controls[k];
+    const Vec<T, 3>& x = control.point;
+    if (control.patch >= 0)
+      put(out, "{}", control.patch);
+    else
+      list(out, 3, ", ", [&](int c) { put(out, "{}", number(x[c])); });
+  });
+  put(out, "}}\n    }}");
+}
+
 // ,
 //   "patches": [ … ]
 template <class Elements, class Put>
@@ -153,12 +175,12 @@ void section(Buffer& out, const char* key, const Elements& elements, Put put_ele
 
 template <ExactField T>
 std::string write_model_json(const Model<T>& model) {
-  PATCHPROOF_REQUIRES(model.solids.empty(), "write_model_json: the format has no solids");
   Buffer out;
   put(out, "{{\n  \"format\": \"patchproof-model\",\n  \"version\": 1");
   if (!model.units.empty()) put(out, ",\n  \"units\": {}", quoted(model.units));
   section(out, "curves", model.curves, [&](const ModelCurve<T>& c) { curve(out, c); });
   section(out, "patches", model.patches, [&](const ModelPatch<T>& p) { patch(out, p); });
+  section(out, "solids", model.solids, [&](const ModelSolid<T>& s) { solid(out, s); });
   section(out, "joins", model.joins, [&](const DeclaredJoin& join) {
     put(out,
         "    {{\"a\": {{\"patch\": {}, \"edge\": \"{}\"}}, \"b\": {{\"patch\": {}, \"edge\": \"{}\"}}, "

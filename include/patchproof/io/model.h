@@ -37,11 +37,18 @@ struct ModelCurve {
   int dimension = 3;  // 2: the file gives x and y only, and z = 0
 };
 
-// A solid over a box of (u, v, w), mapped to homogeneous points (w·x, w·y, w·z, w).
+// A solid over a box of (u, v, w), mapped to homogeneous points. Read from a file it is Σ N_k(w) C_k(u,v) with patches of the
+// model and points as controls.
 template <ExactField T>
 struct ModelSolid {
+  struct Control {
+    int patch = -1;  // 0-based, or −1: a point
+    Vec<T, 3> point{};
+  };
   std::string name;
   TransfiniteMap<T, 3, 4> map;
+  std::optional<KnotVector<T>> knots = std::nullopt;  // empty: not read from a file, and no format holds it
+  std::vector<Control> controls = {};
 };
 
 // A join that the file declares: the first edge, the second edge, and whether their directions are opposite.
@@ -67,7 +74,7 @@ struct ModelFile {
   std::string sha256;  // of the bytes read, 64 lower-case hexadecimal digits
   Decimals decimals = Decimals::exact;
   std::variant<Model<Rational>, Model<Quadratic>> model;
-  std::vector<std::string> notes;  // what the reader left out or noticed, e.g. "2 curves skipped"
+  std::vector<std::string> notes;  // what the reader left out or noticed, e.g. "patch 0: Coons patch, expanded exactly"
 };
 
 }  // namespace patchproof

@@ -5,7 +5,7 @@
 // where they are Bézier knots on [0, 1]. A rational curve or patch is written with points and "weights", or, when a weight is
 // zero, with homogeneous points, such as [w·x, w·y, w·z, w].
 //
-// REQUIRES curves of dimension 2 in the plane z = 0; no solids, for which the format has no words.
+// REQUIRES curves of dimension 2 in the plane z = 0; solids that have `knots` and `controls`.
 // ENSURES  (1) read_model_text(write_model_json(m)) gives m back: the same curves and patches with their names, knots and
 //          homogeneous points, the same units and joins
 //          (names and units in UTF-8; no number with more than kMaxDigits characters as a fraction: the reader refuses it);
