@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Draws every model of this folder: draw.sh PROGRAM [FOLDER]. `./dev pictures` calls it.
+set -euo pipefail
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
+program=$1
+out=${2:-$here/pictures}
+mkdir -p "$out"
+curves=() surfaces=()
+for model in "$here"/*.json; do
+  if grep -q '"curves"' "$model"; then curves+=("$model"); else surfaces+=("$model"); fi
+done
+"$program" plot "${curves[@]}" "$out" --format svg
+"$program" plot "${surfaces[@]}" "$out" --format svg --cells 8
+for name in bernstein_3 test04 test12 test13; do   # what these are about: their functions
+  "$program" plot --basis "$here/$name.json" "$out/${name}_basis.svg"
+done
