@@ -8,10 +8,14 @@
 // read_cad_model stands in the optional target patchproof::occt; certify_cad needs no Open CASCADE.
 //
 // ENSURES  (1) every edge of the file is listed once, as what it is: shared, seam, free, more than two faces, degenerate,
-//          or unusable with a reason;  (2) nothing is healed: no gap closed, no tolerance changed, no edge merged;
-//          (3) the denominators of all surfaces are certified to have no zero; a face that is not usable is named in the
-//          notes, and its edges are unusable.
-// ERRORS   of read_cad_model: cannot_open, unknown_format, syntax (Open CASCADE cannot read the file), wrong_count (no face).
+//          or unusable with a reason;  (2) what Open CASCADE's readers deliver is taken as it is: no gap closed, no tolerance
+//          changed, no edge merged;  (3) the denominators of all surfaces are certified to have no zero; a face that is not
+//          usable is refused, or left out, listed with the reason, and its edges are unusable;  (4) a face that stands in
+//          several places of an assembly is as many faces, each in its place;  (5) certify_cad's report does not depend on
+//          the number of jobs.
+// ERRORS   of read_cad_model: cannot_open, empty_input, syntax (Open CASCADE cannot read the file, or a part of a face),
+//          wrong_count (no face); of the first face that is not usable, whose label stands in `where`: unsupported,
+//          vanishing_weight, bad_number and those of knots.
 // TEST     tests/io/cad_test.cpp
 #pragma once
 
@@ -56,9 +60,17 @@ struct CadEdge {
   std::string note;      // why it is unusable, or what is odd
 };
 
+// A face of the file that cannot be used.
+struct LeftOutFace {
+  std::string label;
+  ErrorCode code;
+  std::string reason;
+};
+
 struct CadModel {
   std::string path, format, sha256, units;
   std::vector<CadFace> faces;
+  std::vector<LeftOutFace> left_out;
   std::vector<CadEdge> edges;
   std::vector<std::string> notes;
 };
@@ -67,7 +79,8 @@ struct CadModel {
 bool looks_like_cad(const std::string& path);
 
 // Only in the target patchproof::occt.
-Result<CadModel> read_cad_model(const std::string& path);
+enum class UnusableFaces { refuse, leave_out };
+Result<CadModel> read_cad_model(const std::string& path, UnusableFaces unusable = UnusableFaces::refuse);
 
 // Every shared edge and seam, and each pair of neighbours at an edge of more than two faces.
 Report certify_cad(const CadModel& model, const CertifyOptions& options = {});

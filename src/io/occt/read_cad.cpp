@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // STEP, IGES and BREP through Open CASCADE.
 #include <BRepBuilderAPI_NurbsConvert.hxx>
-#include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2dConvert.hxx>
 #include <Geom2d_BSplineCurve.hxx>
@@ -10,18 +8,10 @@
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
-#include <IGESControl_Reader.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
-#include <OSD.hxx>
-#include <STEPControl_Reader.hxx>
-#include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
-#include <StepData_StepModel.hxx>
-#include <StepRepr_RepresentationItem.hxx>
-#include <TColStd_SequenceOfAsciiString.hxx>
-#include <TCollection_HAsciiString.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -30,9 +20,6 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <Transfer_TransientProcess.hxx>
-#include <XSControl_TransferReader.hxx>
-#include <XSControl_WorkSession.hxx>
 
 #include <fmt/format.h>
 
@@ -41,95 +28,18 @@
 #include <optional>
 
 #include "../source_file.h"
+#include "converted.h"
+#include "load.h"
 #include "patchproof/io/cad.h"
 #include "patchproof/patch/denominator.h"
 #include "patchproof/spline/bezier_extraction.h"
 #include "patchproof/spline/reparametrize.h"
 
-namespace patchproof {
+namespace patchproof::occt {
 namespace {
 
 using SurfaceHandle = opencascade::handle<Geom_BSplineSurface>;
 using CurveHandle = opencascade::handle<Geom2d_BSplineCurve>;
-
-// The shapes of a file, and what the file calls them.
-struct Loaded {
-  TopoDS_Shape shape;
-  std::string units;
-  std::vector<std::string> face_labels, edge_labels;  // by index in TopExp's maps
-};
-
-std::string plain_label(const char* what, int index) { return std::string(what) + " " + std::to_string(index); }
-
-// "#123 'name'" of the STEP entity that a shape came from.
-std::string step_label(const STEPControl_Reader& reader, const TopoDS_Shape& shape, const std::string& otherwise) {
-  const auto transfer = reader.WS()->TransferReader();
-  const auto model = opencascade::handle<StepData_StepModel>::DownCast(reader.WS()->Model());
-  for (const TopoDS_Shape& candidate : {shape, shape.Located(TopLoc_Location())}) {
-    const auto entity = transfer->EntityFromShapeResult(candidate, 1);
-    if (entity.IsNull() || model.IsNull()) continue;
-    std::string label = "#" + std::to_string(model->IdentLabel(entity));
-    const auto item = opencascade::handle<StepRepr_RepresentationItem>::DownCast(entity);
-    if (!item.IsNull() && !item->Name().IsNull() && item->Name()->Length() > 0 &&
-        !item->Name()->IsSameString(new TCollection_HAsciiString("NONE")))
-      label += std::string(" '") + item->Name()->ToCString() + "'";
-    return label;
-  }
-  return otherwise;
-}
-
-template <class LabelOf>
-void label_all(Loaded& loaded, LabelOf label_of) {
-  for (const auto& [type, what, labels] :
-       {std::tuple(TopAbs_FACE, "face", &loaded.face_labels), std::tuple(TopAbs_EDGE, "edge", &loaded.edge_labels)}) {
-    TopTools_IndexedMapOfShape map;
-    TopExp::MapShapes(loaded.shape, type, map);
-    for (int i = 1; i <= map.Extent(); ++i) labels->push_back(label_of(map(i), plain_label(what, i)));
-  }
-}
-
-Error cannot_read(const std::string& path, const std::string& message, const std::string& values = "") {
-  return {ErrorCode::syntax, path, message, values};
-}
-
-Result<Loaded> load_step(const std::string& path) {
-  STEPControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-    return cannot_read(path, "Open CASCADE cannot read the STEP file");
-  Loaded loaded;
-  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
-  reader.FileUnits(lengths, angles, solid_angles);
-  loaded.units = "mm";  // Open CASCADE converts
-  if (lengths.Length() > 0 && !lengths.First().IsEqual("millimetre"))
-    loaded.units += std::string(" (file: ") + lengths.First().ToCString() + ")";
-  reader.TransferRoots();
-  loaded.shape = reader.OneShape();
-  if (loaded.shape.IsNull()) return cannot_read(path, "the STEP file holds no shape that Open CASCADE can build");
-  label_all(loaded, [&](const TopoDS_Shape& shape, const std::string& otherwise) {
-    return step_label(reader, shape, otherwise);
-  });
-  return loaded;
-}
-
-Result<Loaded> load_iges(const std::string& path) {
-  IGESControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-    return cannot_read(path, "Open CASCADE cannot read the IGES file");
-  reader.TransferRoots();
-  Loaded loaded{reader.OneShape(), "mm", {}, {}};
-  if (loaded.shape.IsNull()) return cannot_read(path, "the IGES file holds no shape that Open CASCADE can build");
-  label_all(loaded, [](const TopoDS_Shape&, const std::string& label) { return label; });
-  return loaded;
-}
-
-Result<Loaded> load_brep(const std::string& path) {
-  Loaded loaded;
-  BRep_Builder builder;
-  if (!BRepTools::Read(loaded.shape, path.c_str(), builder) || loaded.shape.IsNull())
-    return cannot_read(path, "Open CASCADE cannot read the BREP file");
-  label_all(loaded, [](const TopoDS_Shape&, const std::string& label) { return label; });
-  return loaded;
-}
 
 const char* kind_of(const TopoDS_Face& face) {
   TopLoc_Location location;
@@ -156,44 +66,45 @@ std::optional<Rational> exact(double x) {
 }
 
 template <class Knots, class Multiplicities>
-std::optional<KnotVector<Rational>> knots_of(int degree, const Knots& knots, const Multiplicities& multiplicities) {
+Result<KnotVector<Rational>> knots_of(int degree, const Knots& knots, const Multiplicities& multiplicities) {
   std::vector<Rational> all;
   for (int i = knots.Lower(); i <= knots.Upper(); ++i) {
     const auto t = exact(knots(i));
-    if (!t) return std::nullopt;
+    if (!t) return Error{ErrorCode::bad_number, "", "a knot is not finite", ""};
     all.insert(all.end(), multiplicities(i), *t);
   }
-  Result<KnotVector<Rational>> made = KnotVector<Rational>::make(degree, std::move(all));
-  if (!made) return std::nullopt;
-  return std::move(*made);
+  return KnotVector<Rational>::make(degree, std::move(all));
 }
 
-// The B-spline of a converted face; a message when there is none.
+// The B-spline of a converted face; what is wrong with it when there is none.
 Result<BsplinePatch<Rational, 4>> surface_of(const TopoDS_Face& face) {
-  const auto bad = [](std::string message) { return Error{ErrorCode::unsupported, "", std::move(message), ""}; };
+  const auto bad = [](ErrorCode code, std::string message) { return Error{code, "", std::move(message), ""}; };
   auto any = BRep_Tool::Surface(face);
-  if (any.IsNull()) return bad("it has no surface");
+  if (any.IsNull()) return bad(ErrorCode::unsupported, "it has no surface");
   while (any->IsKind(STANDARD_TYPE(Geom_RectangularTrimmedSurface)))
     any = opencascade::handle<Geom_RectangularTrimmedSurface>::DownCast(any)->BasisSurface();
   const SurfaceHandle given = SurfaceHandle::DownCast(any);
-  if (given.IsNull()) return bad("Open CASCADE's conversion to B-splines left another surface");
+  if (given.IsNull()) return bad(ErrorCode::unsupported, "Open CASCADE's conversion to B-splines left another surface");
   const SurfaceHandle s = SurfaceHandle::DownCast(given->Copy());
   if (s->IsUPeriodic()) s->SetUNotPeriodic();
   if (s->IsVPeriodic()) s->SetVNotPeriodic();
-  const auto u = knots_of(s->UDegree(), s->UKnots(), s->UMultiplicities());
-  const auto v = knots_of(s->VDegree(), s->VKnots(), s->VMultiplicities());
-  if (!u || !v) return bad("its knots are not usable");
+  auto u = knots_of(s->UDegree(), s->UKnots(), s->UMultiplicities());
+  auto v = knots_of(s->VDegree(), s->VKnots(), s->VMultiplicities());
+  if (!u) return bad(u.error().code, "its knots along u: " + u.error().message);
+  if (!v) return bad(v.error().code, "its knots along v: " + v.error().message);
   std::vector<Vec<Rational, 4>> net;
   for (int i = 1; i <= s->NbUPoles(); ++i)
     for (int j = 1; j <= s->NbVPoles(); ++j) {
       const gp_Pnt p = s->Pole(i, j);
       const auto x = exact(p.X()), y = exact(p.Y()), z = exact(p.Z()), w = exact(s->Weight(i, j));
-      if (!x || !y || !z || !w) return bad("a control point is not finite");
+      if (!x || !y || !z || !w)
+        return bad(ErrorCode::bad_number, fmt::format("control point ({}, {}) of its surface is not finite", i, j));
       net.push_back(to_homogeneous(Vec<Rational, 3>{{*x, *y, *z}}, *w));
     }
   Result<BsplinePatch<Rational, 4>> patch = BsplinePatch<Rational, 4>::make(*u, *v, std::move(net));
-  if (!patch) return bad(patch.error().message);
-  if (!certify_denominator(*patch).is_nonzero()) return bad("the denominator of its surface has a zero");
+  if (!patch) return bad(patch.error().code, patch.error().message);
+  if (!certify_denominator(*patch).is_nonzero())
+    return bad(ErrorCode::vanishing_weight, "the denominator of its surface has a zero, or none could be excluded");
   return patch;
 }
 
@@ -211,7 +122,7 @@ Result<BsplineCurve<Rational, 3>> parameters_of(const TopoDS_Edge& edge, const T
   curve = CurveHandle::DownCast(curve->Copy());
   if (curve->IsPeriodic()) curve->SetNotPeriodic();
   const auto knots = knots_of(curve->Degree(), curve->Knots(), curve->Multiplicities());
-  if (!knots) return bad("the knots of its parameter curve are not usable");
+  if (!knots) return bad("the knots of its parameter curve: " + knots.error().message);
   std::vector<Vec<Rational, 3>> points;
   for (int i = 1; i <= curve->NbPoles(); ++i) {
     const gp_Pnt2d p = curve->Pole(i);
@@ -252,7 +163,11 @@ class Reader {
  public:
   Reader(CadModel& model, const Loaded& loaded) : model_(model), loaded_(loaded) {}
 
-  void read() {
+  // The converted shape. ERRORS those of the first face that is not usable, when such faces are refused.
+  Result<TopoDS_Shape> read(UnusableFaces unusable) {
+    model_.left_out = loaded_.missing;
+    if (const auto error = refused(unusable)) return *error;
+    if (loaded_.shape.IsNull()) return loaded_.shape;
     BRepBuilderAPI_NurbsConvert convert(loaded_.shape, true);
     if (!convert.IsDone()) throw Standard_Failure("conversion to B-splines failed");
     const TopoDS_Shape shape = convert.Shape();
@@ -263,23 +178,40 @@ class Reader {
     if (!in_step) model_.notes.push_back("the conversion to B-splines changed the number of faces: labels are indices");
     for (int i = 1; i <= faces.Extent(); ++i)
       add_face(TopoDS::Face(faces(i)), in_step ? kind_of(TopoDS::Face(before(i))) : "bspline",
-               in_step ? loaded_.face_labels[i - 1] : plain_label("face", i));
+               in_step ? loaded_.face_labels[i - 1] : plain_label("face", i),
+               in_step ? loaded_.face_faults[i - 1] : "");
+    if (const auto error = refused(unusable)) return *error;
     TopTools_IndexedDataMapOfShapeListOfShape edges;
     TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, edges);
     const bool edges_in_step = static_cast<int>(loaded_.edge_labels.size()) == edges.Extent();
     for (int i = 1; i <= edges.Extent(); ++i)
       add_edge(TopoDS::Edge(edges.FindKey(i)), edges(i), faces,
                edges_in_step ? loaded_.edge_labels[i - 1] : plain_label("edge", i));
+    return shape;
   }
 
  private:
-  void add_face(const TopoDS_Face& face, const std::string& kind, const std::string& label) {
-    Result<BsplinePatch<Rational, 4>> surface = surface_of(face);
-    place_.push_back(surface ? static_cast<int>(model_.faces.size()) : -1);
-    if (!surface) {
-      model_.notes.push_back("face " + label + " is left out: " + surface.error().message);
+  std::optional<Error> refused(UnusableFaces unusable) const {
+    if (unusable == UnusableFaces::leave_out || model_.left_out.empty()) return std::nullopt;
+    const LeftOutFace& face = model_.left_out.front();
+    std::string more;
+    if (const std::size_t others = model_.left_out.size() - 1; others > 0)
+      more = fmt::format("; {} more {} not usable either", others, others == 1 ? "face is" : "faces are");
+    return Error{face.code, model_.path + " at " + face.label, "the face is not usable: " + face.reason + more, ""};
+  }
+
+  void add_face(const TopoDS_Face& face, const std::string& kind, const std::string& label, const std::string& fault) {
+    place_.push_back(-1);
+    if (!fault.empty()) {
+      model_.left_out.push_back({label, ErrorCode::syntax, fault});
       return;
     }
+    Result<BsplinePatch<Rational, 4>> surface = surface_of(face);
+    if (!surface) {
+      model_.left_out.push_back({label, surface.error().code, surface.error().message});
+      return;
+    }
+    place_.back() = static_cast<int>(model_.faces.size());
     if (kind == "offset" || kind == "other")
       model_.notes.push_back("face " + label + ": its " + kind + " surface is approximated by a B-spline");
     model_.faces.push_back({label, kind, std::move(*surface)});
@@ -330,31 +262,69 @@ class Reader {
   std::vector<int> place_;  // of each face of the shape in model_.faces, −1 when left out
 };
 
+// Open CASCADE speaks to the user through printers; its words are not ours.
+class Silence {
+ public:
+  Silence() : printers_(Message::DefaultMessenger()->Printers()) {
+    Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
+  }
+  ~Silence() {
+    for (const auto& printer : printers_) Message::DefaultMessenger()->AddPrinter(printer);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  const Message_SequenceOfPrinters printers_;
+};
+
 }  // namespace
 
-Result<CadModel> read_cad_model(const std::string& path) {
+Result<Converted> read_converted(const std::string& path, UnusableFaces unusable) {
   const Result<std::string> bytes = load_file(path);
   if (!bytes) return bytes.error();
-  CadModel model;
+  if (bytes->empty()) return Error{ErrorCode::empty_input, path, "the file is empty", ""};
+  Converted out;
+  CadModel& model = out.model;
   model.path = path;
   model.sha256 = sha256_of(*bytes);
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));  // its words are not ours
+  model.format = format_of(*bytes);
+  const Silence silence;
+  const auto failed = [&](const char* what) {
+    return Error{ErrorCode::syntax, path, std::string("Open CASCADE failed ") + what, ""};
+  };
+  Loaded loaded;
   try {
-    OCC_CATCH_SIGNALS
-    const std::string_view head = std::string_view(*bytes).substr(0, 4096);
-    const bool step = head.find("ISO-10303-21") != std::string_view::npos;
-    const bool brep = head.find("DBRep_DrawableShape") != std::string_view::npos ||
-                      head.find("CASCADE Topology") != std::string_view::npos;
-    model.format = step ? "step" : brep ? "brep" : "iges";
-    const Result<Loaded> loaded = step ? load_step(path) : brep ? load_brep(path) : load_iges(path);
-    if (!loaded) return loaded.error();
-    model.units = loaded->units;
-    Reader(model, *loaded).read();
-  } catch (const Standard_Failure& failure) {
-    return cannot_read(path, "Open CASCADE failed on the file", failure.GetMessageString());
+    Result<Loaded> result = load(path, model.format);
+    if (!result) return result.error();
+    loaded = std::move(*result);
+  } catch (const Standard_Failure&) {
+    return failed("to read the file");
   }
-  if (model.faces.empty()) return Error{ErrorCode::wrong_count, path, "the file holds no usable face", ""};
-  return model;
+  model.units = loaded.units;
+  try {
+    Result<TopoDS_Shape> shape = Reader(model, loaded).read(unusable);
+    if (!shape) return shape.error();
+    out.shape = *shape;
+  } catch (const Standard_Failure&) {
+    return failed("to convert the file's shape to B-splines");
+  }
+  if (!model.faces.empty()) return out;
+  if (model.left_out.empty()) return Error{ErrorCode::wrong_count, path, "the file holds no face", ""};
+  return Error{ErrorCode::wrong_count, path,
+               "no face of the file is usable, for example " + model.left_out.front().label + ": " +
+                   model.left_out.front().reason,
+               ""};
+}
+
+}  // namespace patchproof::occt
+
+namespace patchproof {
+
+Result<CadModel> read_cad_model(const std::string& path, UnusableFaces unusable) {
+  Result<occt::Converted> converted = occt::read_converted(path, unusable);
+  if (!converted) return converted.error();
+  return std::move(converted->model);
 }
 
 }  // namespace patchproof

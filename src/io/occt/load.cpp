@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "load.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_EntityIterator.hxx>
+#include <Interface_Graph.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepShape_FaceSurface.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace patchproof::occt {
+namespace {
+
+using Entity = opencascade::handle<Standard_Transient>;
+using Model = opencascade::handle<Interface_InterfaceModel>;
+
+Error cannot_read(const std::string& path, const std::string& message) {
+  return {ErrorCode::syntax, path, message, ""};
+}
+
+// "#123 'name'" in STEP files, "D57" in IGES files.
+std::string entity_label(const Model& model, const Entity& entity) {
+  std::string label = model->StringLabel(entity)->ToCString();
+  const auto item = opencascade::handle<StepRepr_RepresentationItem>::DownCast(entity);
+  if (item.IsNull() || item->Name().IsNull()) return label;
+  const std::string name = item->Name()->ToCString();
+  return name.empty() || name == "NONE" ? label : label + " '" + name + "'";
+}
+
+// The entity that a shape came from; null when there is none.
+Entity entity_of(const XSControl_Reader& reader, const TopoDS_Shape& shape) {
+  for (const TopoDS_Shape& candidate : {shape, shape.Located(TopLoc_Location())}) {
+    const Entity entity = reader.WS()->TransferReader()->EntityFromShapeResult(candidate, 1);
+    if (!entity.IsNull() && reader.WS()->Model()->Contains(entity)) return entity;
+  }
+  return nullptr;
+}
+
+// A face that stands in several places of an assembly is as many faces: "#12", "#12 (2)".
+void number_repeated(std::vector<std::string>& labels) {
+  std::map<std::string, int> times;
+  for (std::string& label : labels)
+    if (const int n = ++times[label]; n > 1) label += " (" + std::to_string(n) + ")";
+}
+
+template <class LabelOf>
+void label_all(Loaded& loaded, LabelOf label_of) {
+  for (const auto& [type, what, labels] :
+       {std::tuple(TopAbs_FACE, "face", &loaded.face_labels), std::tuple(TopAbs_EDGE, "edge", &loaded.edge_labels)}) {
+    TopTools_IndexedMapOfShape map;
+    TopExp::MapShapes(loaded.shape, type, map);
+    for (int i = 1; i <= map.Extent(); ++i) {
+      const std::string label = label_of(map(i));
+      labels->push_back(label.empty() ? plain_label(what, i) : label);
+    }
+    number_repeated(*labels);
+  }
+}
+
+void label_by_entity(Loaded& loaded, const XSControl_Reader& reader) {
+  label_all(loaded, [&](const TopoDS_Shape& shape) {
+    const Entity entity = entity_of(reader, shape);
+    return entity.IsNull() ? std::string() : entity_label(reader.WS()->Model(), entity);
+  });
+}
+
+bool is_unread(const Model& model, int number) {
+  return number > 0 && (model->IsErrorEntity(number) || model->Check(number, true)->HasFailed());
+}
+
+// An entity that could not be read, among an entity and all that it refers to; null when there is none.
+Entity unread_part(const Model& model, const Interface_Graph& graph, const Entity& root) {
+  std::set<int> seen;
+  std::vector<Entity> waiting{root};
+  while (!waiting.empty()) {
+    const Entity entity = waiting.back();
+    waiting.pop_back();
+    const int number = model->Number(entity);
+    if (!seen.insert(number).second) continue;
+    if (is_unread(model, number)) return entity;
+    for (Interface_EntityIterator part = graph.Shareds(entity); part.More(); part.Next())
+      waiting.push_back(part.Value());
+  }
+  return nullptr;
+}
+
+std::string unread_text(const Model& model, const Entity& part) {
+  return std::string("entity ") + model->StringLabel(part)->ToCString() + " of it cannot be read";
+}
+
+bool has_weight_not_positive(const Entity& face) {
+  const auto with_surface = opencascade::handle<StepShape_FaceSurface>::DownCast(face);
+  if (with_surface.IsNull()) return false;
+  const auto surface = opencascade::handle<StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface>::DownCast(
+      with_surface->FaceGeometry());
+  if (surface.IsNull() || surface->WeightsData().IsNull()) return false;
+  for (int i = 1; i <= surface->NbWeightsDataI(); ++i)
+    for (int j = 1; j <= surface->NbWeightsDataJ(); ++j)
+      if (!(surface->WeightsDataValue(i, j) > 0)) return true;
+  return false;
+}
+
+// Which faces of the file are missing in the shape, and which hold numbers that are not in the file.
+template <class IsFace>
+void find_faults(Loaded& loaded, const XSControl_Reader& reader, IsFace is_face) {
+  const Model model = reader.WS()->Model();
+  bool all_read = true;
+  for (int i = 1; i <= model->NbEntities(); ++i) all_read = all_read && !is_unread(model, i);
+  const Interface_Graph& graph = reader.WS()->Graph();
+  const auto& process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Entity entity = model->Value(i);
+    if (!is_face(entity) || !TransferBRep::ShapeResult(process, entity).IsNull()) continue;
+    const Entity unread = all_read ? nullptr : unread_part(model, graph, entity);
+    const std::string label = entity_label(model, entity);
+    if (!unread.IsNull())
+      loaded.missing.push_back({label, ErrorCode::syntax, unread_text(model, unread)});
+    else if (has_weight_not_positive(entity))
+      loaded.missing.push_back({label, ErrorCode::unsupported,
+                                "its surface has a weight that is not positive: Open CASCADE knows no such surfaces"});
+    else
+      loaded.missing.push_back({label, ErrorCode::unsupported, "Open CASCADE builds no face from it"});
+  }
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(loaded.shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const Entity entity = all_read ? nullptr : entity_of(reader, faces(i));
+    const Entity unread = entity.IsNull() ? nullptr : unread_part(model, graph, entity);
+    loaded.face_faults.push_back(unread.IsNull() ? "" : unread_text(model, unread));
+  }
+}
+
+Result<Loaded> load_step(const std::string& path) {
+  STEPControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+    return cannot_read(path, "Open CASCADE cannot read the STEP file");
+  Loaded loaded;
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  loaded.units = "mm";  // Open CASCADE converts
+  if (lengths.Length() > 0 && !lengths.First().IsEqual("millimetre"))
+    loaded.units += std::string(" (file: ") + lengths.First().ToCString() + ")";
+  reader.TransferRoots();
+  loaded.shape = reader.OneShape();
+  if (!loaded.shape.IsNull()) label_by_entity(loaded, reader);
+  find_faults(loaded, reader,
+              [](const Entity& entity) { return entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface)); });
+  if (loaded.shape.IsNull() && loaded.missing.empty())
+    return cannot_read(path, "the STEP file holds no shape that Open CASCADE can build");
+  return loaded;
+}
+
+Result<Loaded> load_iges(const std::string& path) {
+  IGESControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+    return cannot_read(path, "Open CASCADE cannot read the IGES file");
+  Loaded loaded;
+  loaded.units = "mm";
+  const auto model = opencascade::handle<IGESData_IGESModel>::DownCast(reader.WS()->Model());
+  if (model.IsNull()) return cannot_read(path, "Open CASCADE cannot read the IGES file");
+  const auto unit = model->GlobalSection().UnitName();
+  if (!unit.IsNull() && unit->Length() > 0 && !unit->IsSameString(new TCollection_HAsciiString("MM")))
+    loaded.units += std::string(" (file: ") + unit->ToCString() + ")";
+  reader.TransferRoots();
+  loaded.shape = reader.OneShape();
+  if (!loaded.shape.IsNull()) label_by_entity(loaded, reader);
+  find_faults(loaded, reader, [](const Entity& entity) {
+    const auto iges = opencascade::handle<IGESData_IGESEntity>::DownCast(entity);
+    const int type = iges.IsNull() ? 0 : iges->TypeNumber();
+    return type == 143 || type == 144 || type == 510;  // bounded and trimmed surfaces, faces of solids
+  });
+  if (loaded.shape.IsNull() && loaded.missing.empty())
+    return cannot_read(path, "the IGES file holds no shape that Open CASCADE can build");
+  return loaded;
+}
+
+Result<Loaded> load_brep(const std::string& path) {
+  Loaded loaded;
+  BRep_Builder builder;
+  if (!BRepTools::Read(loaded.shape, path.c_str(), builder) || loaded.shape.IsNull())
+    return cannot_read(path, "Open CASCADE cannot read the BREP file");
+  label_all(loaded, [](const TopoDS_Shape&) { return std::string(); });
+  loaded.face_faults.resize(loaded.face_labels.size());
+  return loaded;
+}
+
+}  // namespace
+
+std::string format_of(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, 4096);
+  const auto holds = [&](std::string_view text) { return head.find(text) != std::string_view::npos; };
+  return holds("ISO-10303-21") ? "step" : holds("DBRep_DrawableShape") || holds("CASCADE Topology") ? "brep" : "iges";
+}
+
+std::string plain_label(const char* what, int index) { return std::string(what) + " " + std::to_string(index); }
+
+Result<Loaded> load(const std::string& path, const std::string& format) {
+  return format == "step" ? load_step(path) : format == "brep" ? load_brep(path) : load_iges(path);
+}
+
+}  // namespace patchproof::occt
