@@ -36,13 +36,15 @@ EnclosedMaximum enclosed(const TrimmedJoin& join, const TrimmedBound& bound) {
   return out;
 }
 
-Witness gap_witness(const TrimmedJoin& join, const Rational& t) {
+// Exact values that refute C0, or nothing: the bound continues surfaces beyond their domains, the witness does not.
+std::optional<Witness> gap_witness(const TrimmedJoin& join, const Rational& t) {
   const Parameters a = parameters_at(join.a, t), b = parameters_at(join.b, t);
   const Vec<Rational, 3> difference = point_at(join.a, a) - point_at(join.b, b);
-  return {"x - y",
-          {to_text(a[0]), to_text(a[1])},
-          {to_text(b[0]), to_text(b[1])},
-          {to_text(difference[0]), to_text(difference[1]), to_text(difference[2])}};
+  if (detail::is_zero_point(difference)) return std::nullopt;
+  return Witness{"x - y",
+                 {to_text(a[0]), to_text(a[1])},
+                 {to_text(b[0]), to_text(b[1])},
+                 {to_text(difference[0]), to_text(difference[1]), to_text(difference[2])}};
 }
 
 }  // namespace
@@ -65,8 +67,10 @@ Certificate certify_trimmed(const TrimmedJoin& join, const Request& request) {
   out.orientation = out.angle.upper < 90   ? Orientation::smooth
                     : out.angle.lower > 90 ? Orientation::mixed  // somewhere above 90°; a cusp only if everywhere
                                            : Orientation::unknown;
-  if (out.gap.lower > 0) {
-    out.c0 = {Verdict::refuted, "the edge curves differ", gap_witness(join, bounds.gap.t)};
+  std::optional<Witness> witness;
+  if (out.gap.lower > 0) witness = gap_witness(join, bounds.gap.t);
+  if (witness) {
+    out.c0 = {Verdict::refuted, "the edge curves differ", std::move(witness)};
     for (ExactClass* c : {&out.c1, &out.c2, &out.g1}) *c = {Verdict::refuted, "not C0", std::nullopt};
   } else {
     for (ExactClass* c : {&out.c0, &out.c1, &out.c2, &out.g1})
