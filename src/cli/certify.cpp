@@ -12,6 +12,7 @@
 
 #include "cli/commands.h"
 #include "patchproof/io/cad.h"
+#include "patchproof/io/profile.h"
 #include "patchproof/io/read.h"
 #include "patchproof/io/report.h"
 
@@ -22,6 +23,7 @@ struct Options {
   std::vector<std::string> models;
   std::optional<std::string> require;
   std::optional<double> gap, angle;
+  std::string profile;
   double match = 0, budget = 10;
   int jobs = 0;
   Decimals decimals = Decimals::exact;
@@ -91,6 +93,25 @@ Result<Input> read_input(const std::string& path, Decimals decimals) {
   return Input(std::move(*file));
 }
 
+std::string_view units_of(const Input& input) {
+  if (const CadModel* cad = std::get_if<CadModel>(&input)) return cad->units;
+  return std::visit([](const auto& model) -> std::string_view { return model.units; },
+                    std::get<ModelFile>(input).model);
+}
+
+int list_profiles() {
+  std::string text;
+  for (const Profile& profile : all_profiles()) {
+    text += fmt::format("{}: {}\n  source: {}\n", profile.name, profile.title, profile.source);
+    if (!profile.remark.empty()) text += fmt::format("  remark: {}\n", profile.remark);
+    for (const Criterion& c : profile.criteria)
+      text += fmt::format("  {} {:<46} at most {} {}{}{}\n", c.code, c.what, c.threshold, c.unit,
+                          c.quantity == Quantity::unchecked ? " (not checked)" : "",
+                          c.entity.empty() ? "" : fmt::format(" [{}]", c.entity));
+  }
+  return write_output("-", text);
+}
+
 int run(const Options& options) {
   CertifyOptions certify;
   if (options.require)
@@ -100,6 +121,8 @@ int run(const Options& options) {
   certify.request.gap_tolerance = options.gap;
   certify.request.angle_tolerance = options.angle;
   certify.request.seconds_per_join = options.budget;
+  certify.given = certify.request;
+  certify.profile = find_profile(options.profile);
   certify.match_length = options.match;
   certify.jobs = options.jobs;
   ProgressBar bar;
@@ -110,6 +133,9 @@ int run(const Options& options) {
   for (const std::string& path : options.models) {
     Result<Input> file = read_input(path, options.decimals);
     if (!file) return report_error(file.error());
+    if (certify.profile)
+      if (const auto request = tolerances_of(*certify.profile, units_of(*file), certify.given); !request)
+        return report_error(request.error());
     files.push_back(std::move(*file));
     std::error_code ignored;
     if (options.json != "-" && std::filesystem::equivalent(path, options.json, ignored))
@@ -119,6 +145,7 @@ int run(const Options& options) {
   std::ostringstream json, table;
   if (!options.json.empty() && files.size() > 1) json << "[";
   for (std::size_t i = 0; i < files.size(); ++i) {
+    if (certify.profile) certify.request = *tolerances_of(*certify.profile, units_of(files[i]), certify.given);
     const Report report = std::visit(
         [&]<class File>(const File& file) {
           if constexpr (std::is_same_v<File, CadModel>)
@@ -151,7 +178,7 @@ int run(const Options& options) {
 void add_certify(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("certify", "prove, refute or bound every join of a model");
-  command->add_option("model", options->models, "files to certify")->required()->type_name("MODEL");
+  command->add_option("model", options->models, "files to certify")->type_name("MODEL");
   command->add_option("--require", options->require, "every join must be proven of this class")
       ->check(CLI::IsMember({"C0", "C1", "G1"}))
       ->option_text("C0|C1|G1");
@@ -161,6 +188,13 @@ void add_certify(CLI::App& app, int& exit_code) {
   command->add_option("--angle", options->angle, "largest normal angle allowed, in degrees")
       ->check(between(0, 180))
       ->option_text("DEGREES");
+  std::vector<std::string> names{"list"};
+  for (const Profile& profile : all_profiles()) names.emplace_back(profile.name);
+  command
+      ->add_option("--profile", options->profile,
+                   "thresholds that --gap and --angle do not set: " + CLI::detail::join(names, ", "))
+      ->check(CLI::IsMember(names))
+      ->option_text("NAME");
   command
       ->add_option("--match", options->match,
                    "which edges are looked at: those within this length of each other [1e-6 of the diagonal]")
@@ -176,7 +210,14 @@ void add_certify(CLI::App& app, int& exit_code) {
       ->option_text("SECONDS");
   add_decimals(*command, options->decimals);
   command->add_flag("--quiet", options->quiet, "print the summary only");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] {
+    if (options->profile == "list") {
+      exit_code = list_profiles();
+    } else {
+      if (options->models.empty()) throw CLI::RequiredError("model");
+      exit_code = run(*options);
+    }
+  });
 }
 
 }  // namespace patchproof::cli

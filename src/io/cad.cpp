@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "patchproof/scalar/parse_scalar.h"
+#include "report_profile.h"
 
 namespace patchproof {
 namespace {
@@ -74,7 +75,7 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
   report.units = model.units;
   report.decimals = Decimals::binary64;
   report.notes = model.notes;
-  report.request = options.request;
+  begin_request(report, options);
   for (const CadFace& face : model.faces) report.patch_names.push_back(face.label);
   for (const CadEdge& edge : model.edges)
     if (!edge.note.empty()) report.notes.push_back("edge " + edge.label + ": " + edge.note);
@@ -97,7 +98,7 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
       out.a = reported_side(*a, edge.label);
       out.b = reported_side(*b, edge.label);
       out.certificate = certify_trimmed(join, options.request);
-      out.judgement = judge(out.certificate, options.request);
+      out.judgement = judge(out.certificate, request_at(options, out.kind));
       const std::size_t now = ++done;
       if (options.progress) options.progress(now, pairs.size());
     });

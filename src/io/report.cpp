@@ -2,6 +2,7 @@
 #include "patchproof/io/report.h"
 
 #include "patchproof/join/certify.h"
+#include "report_profile.h"
 
 namespace patchproof {
 namespace {
@@ -34,6 +35,7 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
     report.patch_names.push_back(patch.name);
   }
   report.units = model.units;
+  begin_request(report, options);
   EdgeMatch<T> match = match_edges(patches, options.match_length);
   if (!model.joins.empty()) {
     // The file says which edges meet; the lines inside patches are looked at all the same.
@@ -80,7 +82,7 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
         out.pairing_nodes.push_back({to_text(join.pairing.a[k]), to_text(join.pairing.b[k])});
     if (join.pairing.kind == PairingKind::rational_linear) out.pairing_ratio = to_text(join.pairing.ratio);
     out.certificate = std::move(certificates[i]);
-    out.judgement = judge(out.certificate, options.request);
+    out.judgement = judge(out.certificate, request_at(options, join.kind));
     report.joins.push_back(std::move(out));
   }
 }
@@ -105,7 +107,6 @@ Report certify_model(const ModelFile& file, const CertifyOptions& options) {
   report.sha256 = file.sha256;
   report.decimals = file.decimals;
   report.notes = file.notes;
-  report.request = options.request;
   std::visit([&](const auto& model) { certify_into(report, model, options); }, file.model);
   return report;
 }

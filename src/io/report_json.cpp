@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "patchproof/io/report.h"
+#include "report_profile.h"
 
 namespace patchproof {
 namespace {
@@ -25,6 +26,14 @@ Json side(const Report& r, const ReportedSide& s) {
           {"edge", s.edge},
           {"range", {s.begin, s.end}},
           {"exact_range", {s.exact_begin, s.exact_end}}};
+}
+
+Json checks_json(const Report& r, const ReportedJoin& j) {
+  Json checks = Json::array();
+  for (const Criterion& c : r.profile->criteria)
+    if (const auto outcome = outcome_of(r, j, c))
+      checks.push_back({{"code", c.code}, {"verdict", to_string(*outcome)}});
+  return checks;
 }
 
 Json join_json(const Report& r, const ReportedJoin& j) {
@@ -50,23 +59,53 @@ Json join_json(const Report& r, const ReportedJoin& j) {
                        {"values", cls->witness->values}};
     if (!cls->reason.empty()) reasons[name] = cls->reason;
   }
-  return {{"id", j.id},
-          {"a", side(r, j.a)},
-          {"b", side(r, j.b)},
-          {"kind", to_string(j.kind)},
-          {"reversed", j.reversed},
-          {"exact", exact},
-          {"gap", bound(c.gap)},
-          {"angle_degrees", bound(c.angle)},
-          {"tangent_plane_angle_degrees", bound(c.plane_angle)},
-          {"orientation", to_string(c.orientation)},
-          {"degenerate", degenerate},
-          {"rung", c.rung},
-          {"pairing", pairing},
-          {"verdict", to_string(j.judgement.outcome)},
-          {"witness", witness},
-          {"reasons", reasons},
-          {"reason", j.judgement.reason}};
+  Json out{{"id", j.id},
+           {"a", side(r, j.a)},
+           {"b", side(r, j.b)},
+           {"kind", to_string(j.kind)},
+           {"reversed", j.reversed},
+           {"exact", exact},
+           {"gap", bound(c.gap)},
+           {"angle_degrees", bound(c.angle)},
+           {"tangent_plane_angle_degrees", bound(c.plane_angle)},
+           {"orientation", to_string(c.orientation)},
+           {"degenerate", degenerate},
+           {"rung", c.rung},
+           {"pairing", pairing},
+           {"verdict", to_string(j.judgement.outcome)},
+           {"witness", witness},
+           {"reasons", reasons},
+           {"reason", j.judgement.reason}};
+  if (r.profile) out["checks"] = checks_json(r, j);
+  return out;
+}
+
+Json profile_json(const Report& r) {
+  const auto text = [](std::string_view t) { return t.empty() ? Json(nullptr) : Json(t); };
+  Json criteria = Json::array();
+  for (const Criterion& c : r.profile->criteria) {
+    Json criterion{{"code", c.code},
+                   {"entity", text(c.entity)},
+                   {"what", c.what},
+                   {"threshold", c.threshold},
+                   {"unit", text(c.unit)}};
+    const std::optional<double> tolerance = tolerance_of(r, c);
+    criterion["checked"] = tolerance.has_value();
+    if (tolerance) {
+      const CriterionCount count = count_of(r, c);
+      criterion["compared_with"] = *tolerance;
+      criterion["joins"] = count.joins;
+      criterion["pass"] = count.pass;
+      criterion["fail"] = count.fail;
+      criterion["undecided"] = count.undecided;
+    }
+    criteria.push_back(std::move(criterion));
+  }
+  return {{"name", r.profile->name},
+          {"title", r.profile->title},
+          {"source", r.profile->source},
+          {"remark", text(r.profile->remark)},
+          {"criteria", criteria}};
 }
 
 Json request_json(const Report& r) {
@@ -109,19 +148,20 @@ std::string open_object(const Json& value) {
 }  // namespace
 
 void write_json(std::ostream& out, const Report& r) {
-  const Json head{{"tool", "patchproof"},
-                  {"version", PATCHPROOF_VERSION},
-                  {"schema", 1},
-                  {"input",
-                   {{"file", r.file},
-                    {"sha256", r.sha256},
-                    {"format", r.format},
-                    {"decimals", r.decimals == Decimals::exact ? "exact" : "binary64"},
-                    {"units", r.units},
-                    {"patches", r.patch_names.size()},
-                    {"joins", r.joins.size()},
-                    {"notes", r.notes}}},
-                  {"request", request_json(r)}};
+  Json head{{"tool", "patchproof"},
+            {"version", PATCHPROOF_VERSION},
+            {"schema", 1},
+            {"input",
+             {{"file", r.file},
+              {"sha256", r.sha256},
+              {"format", r.format},
+              {"decimals", r.decimals == Decimals::exact ? "exact" : "binary64"},
+              {"units", r.units},
+              {"patches", r.patch_names.size()},
+              {"joins", r.joins.size()},
+              {"notes", r.notes}}},
+            {"request", request_json(r)}};
+  if (r.profile) head["profile"] = profile_json(r);
   out << open_object(head) << ",\n\"joins\":[";
   for (std::size_t i = 0; i < r.joins.size(); ++i) out << (i ? ",\n" : "\n") << text_of(join_json(r, r.joins[i]));
   out << "],\n\"unmatched_edges\":[";

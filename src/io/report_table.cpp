@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "patchproof/io/report.h"
+#include "report_profile.h"
 
 namespace patchproof {
 namespace {
@@ -186,6 +187,7 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     if (!r.joins.empty() && !r.unmatched.empty()) out << "; free edges are not judged";
     out << '\n';
   }
+  if (r.profile) write_profile(out, r);
 }
 
 }  // namespace patchproof

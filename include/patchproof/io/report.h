@@ -4,7 +4,9 @@
 // ENSURES  (1) write_json prints the document of docs/formats.md ("Report"), schema 1, one line per join, and the same bytes
 //          for the same input and request, whatever the number of jobs (unless a join ran out of its time);
 //          (2) write_table prints the same facts for people, worst join first;
-//          (3) bounds are rounded outward and printed so that they read back as the same doubles.
+//          (3) bounds are rounded outward and printed so that they read back as the same doubles;
+//          (4) with a profile each join is judged by the criteria that speak of its kind, under their codes, and the criteria
+//          that cannot be checked are listed as such.
 #pragma once
 
 #include <array>
@@ -18,6 +20,8 @@
 #include "patchproof/join/edge_match.h"
 
 namespace patchproof {
+
+struct Profile;
 
 struct ReportedSide {
   int patch = 0;
@@ -43,7 +47,8 @@ struct Report {
   std::string file, format, sha256, units;
   Decimals decimals = Decimals::exact;
   std::vector<std::string> patch_names, notes;
-  Request request;
+  Request request;                   // with the tolerances of the profile
+  const Profile* profile = nullptr;  // one of all_profiles()
   double match_length = 0, diagonal = 0;
   std::vector<ReportedJoin> joins;
   std::vector<EdgeRange> unmatched;
@@ -55,6 +60,9 @@ struct Report {
 
 struct CertifyOptions {
   Request request;
+  // With a profile (one of all_profiles()): `request` is tolerances_of(profile, units, given).
+  const Profile* profile = nullptr;
+  Request given;
   double match_length = 0;                                          // 0: 1e-6 of the diagonal
   int jobs = 0;                                                     // 0: one thread per processor
   std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
