@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writing models: our JSON (docs/formats.md), with every number exact.
+// Writing models: our JSON (docs/formats.md), with every number exact; .g2, STEP, IGES and BREP with doubles.
 //
 // Numbers are written as decimals where that is exact and short, else as strings: "1/3", "1/2*sqrt(2)". Knots are left out
 // where they are Bézier knots on [0, 1]. A rational curve or patch is written with points and "weights", or, when a weight is
@@ -9,13 +9,22 @@
 // ENSURES  (1) read_model_text(write_model_json(m)) gives m back: the same curves and patches with their names, knots and
 //          homogeneous points, the same units and joins
 //          (names and units in UTF-8; no number with more than kMaxDigits characters as a fraction: the reader refuses it);
-//          (2) the same model gives the same bytes.
-// NEIGHBOURS read.h
-// TEST     tests/io/write_test.cpp checks (1)–(2).
+//          (2) the same model gives the same bytes;
+//          (3) in the formats of doubles a number is written as a decimal that reads back as the nearest double (so, the same
+//          number where it is a double or a decimal of at most 15 digits), in .g2 as its shortest decimal when that is exact;
+//          (4) what these formats cannot hold is said in notes, and is an error where the geometry would change: knots that
+//          are different and have one nearest double, a number that becomes 0 or infinite, for Open CASCADE a weight that is
+//          not positive, a jump, a degree above 25.
+// ERRORS   unsupported, bad_number; `where` is "patch 3", "curve 0".
+// NEIGHBOURS read.h, cad.h
+// TEST     tests/io/write_test.cpp checks (1)–(2), tests/io/write_doubles_test.cpp (3)–(4),
+//          tests/io/occt/write_cad_test.cpp those of CAD formats.
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "patchproof/error.h"
 #include "patchproof/io/model.h"
 
 namespace patchproof {
@@ -23,5 +32,20 @@ namespace patchproof {
 // T: Rational or Quadratic.
 template <ExactField T>
 std::string write_model_json(const Model<T>& model);
+
+struct WrittenModel {
+  std::string bytes;
+  std::vector<std::string> notes;  // what was left out or rounded
+};
+
+// GoTools' and SISL's .g2: curves, then patches.
+template <ExactField T>
+Result<WrittenModel> write_model_g2(const Model<T>& model);
+
+// A face for each patch, untrimmed, and an edge for each curve, in millimetres (BREP: in the model's numbers).
+// Only in the target patchproof::occt.
+enum class CadFormat { step, iges, brep };
+template <ExactField T>
+Result<WrittenModel> write_model_cad(const Model<T>& model, CadFormat format);
 
 }  // namespace patchproof
