@@ -18,7 +18,9 @@
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
@@ -27,7 +29,6 @@
 
 #include <map>
 #include <set>
-#include <tuple>
 
 namespace patchproof::occt {
 namespace {
@@ -66,16 +67,18 @@ void number_repeated(std::vector<std::string>& labels) {
 
 template <class LabelOf>
 void label_all(Loaded& loaded, LabelOf label_of) {
-  for (const auto& [type, what, labels] :
-       {std::tuple(TopAbs_FACE, "face", &loaded.face_labels), std::tuple(TopAbs_EDGE, "edge", &loaded.edge_labels)}) {
-    TopTools_IndexedMapOfShape map;
-    TopExp::MapShapes(loaded.shape, type, map);
-    for (int i = 1; i <= map.Extent(); ++i) {
-      const std::string label = label_of(map(i));
-      labels->push_back(label.empty() ? plain_label(what, i) : label);
-    }
-    number_repeated(*labels);
-  }
+  const auto label = [&](std::vector<std::string>& labels, const char* what, const TopoDS_Shape& shape) {
+    const std::string given = label_of(shape);
+    labels.push_back(given.empty() ? plain_label(what, static_cast<int>(labels.size()) + 1) : given);
+  };
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(loaded.shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) label(loaded.face_labels, "face", faces(i));
+  TopTools_IndexedDataMapOfShapeListOfShape edges;
+  TopExp::MapShapesAndAncestors(loaded.shape, TopAbs_EDGE, TopAbs_FACE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) label(loaded.edge_labels, "edge", edges.FindKey(i));
+  number_repeated(loaded.face_labels);
+  number_repeated(loaded.edge_labels);
 }
 
 void label_by_entity(Loaded& loaded, const XSControl_Reader& reader) {
@@ -85,8 +88,13 @@ void label_by_entity(Loaded& loaded, const XSControl_Reader& reader) {
   });
 }
 
+// Open CASCADE leaves zeros where a parameter cannot be read. Texts do not matter: real files have $ for empty names.
 bool is_unread(const Model& model, int number) {
-  return number > 0 && (model->IsErrorEntity(number) || model->Check(number, true)->HasFailed());
+  if (number <= 0) return false;
+  const auto check = model->Check(number, true);
+  for (int i = 1; i <= check->NbFails(); ++i)
+    if (std::string_view(check->CFail(i)).find("not a quoted String") == std::string_view::npos) return true;
+  return check->NbFails() == 0 && model->IsErrorEntity(number);
 }
 
 // An entity that could not be read, among an entity and all that it refers to; null when there is none.

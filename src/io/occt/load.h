@@ -16,7 +16,8 @@ namespace patchproof::occt {
 struct Loaded {
   TopoDS_Shape shape;
   std::string units;
-  std::vector<std::string> face_labels, edge_labels;  // by index in TopExp's maps
+  // In the orders of TopExp::MapShapes (faces) and TopExp::MapShapesAndAncestors (edges, with their faces).
+  std::vector<std::string> face_labels, edge_labels;
   // Faces whose entities could not be read as they stand in the file ("" for the others): Open CASCADE puts zeros there.
   std::vector<std::string> face_faults;
   std::vector<LeftOutFace> missing;  // faces of the file that Open CASCADE builds no shape from

@@ -2,12 +2,8 @@
 // STEP, IGES and BREP through Open CASCADE.
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRep_Tool.hxx>
-#include <Geom2dConvert.hxx>
-#include <Geom2d_BSplineCurve.hxx>
-#include <Geom2d_TrimmedCurve.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
-#include <Geom_RectangularTrimmedSurface.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
@@ -24,22 +20,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "../source_file.h"
 #include "converted.h"
 #include "load.h"
 #include "patchproof/io/cad.h"
-#include "patchproof/patch/denominator.h"
-#include "patchproof/spline/bezier_extraction.h"
-#include "patchproof/spline/reparametrize.h"
+#include "splines.h"
 
 namespace patchproof::occt {
 namespace {
-
-using SurfaceHandle = opencascade::handle<Geom_BSplineSurface>;
-using CurveHandle = opencascade::handle<Geom2d_BSplineCurve>;
 
 const char* kind_of(const TopoDS_Face& face) {
   TopLoc_Location location;
@@ -60,89 +50,6 @@ const char* kind_of(const TopoDS_Face& face) {
   }
 }
 
-std::optional<Rational> exact(double x) {
-  if (!std::isfinite(x)) return std::nullopt;
-  return from_double(x);
-}
-
-template <class Knots, class Multiplicities>
-Result<KnotVector<Rational>> knots_of(int degree, const Knots& knots, const Multiplicities& multiplicities) {
-  std::vector<Rational> all;
-  for (int i = knots.Lower(); i <= knots.Upper(); ++i) {
-    const auto t = exact(knots(i));
-    if (!t) return Error{ErrorCode::bad_number, "", "a knot is not finite", ""};
-    all.insert(all.end(), multiplicities(i), *t);
-  }
-  return KnotVector<Rational>::make(degree, std::move(all));
-}
-
-// The B-spline of a converted face; what is wrong with it when there is none.
-Result<BsplinePatch<Rational, 4>> surface_of(const TopoDS_Face& face) {
-  const auto bad = [](ErrorCode code, std::string message) { return Error{code, "", std::move(message), ""}; };
-  auto any = BRep_Tool::Surface(face);
-  if (any.IsNull()) return bad(ErrorCode::unsupported, "it has no surface");
-  while (any->IsKind(STANDARD_TYPE(Geom_RectangularTrimmedSurface)))
-    any = opencascade::handle<Geom_RectangularTrimmedSurface>::DownCast(any)->BasisSurface();
-  const SurfaceHandle given = SurfaceHandle::DownCast(any);
-  if (given.IsNull()) return bad(ErrorCode::unsupported, "Open CASCADE's conversion to B-splines left another surface");
-  const SurfaceHandle s = SurfaceHandle::DownCast(given->Copy());
-  if (s->IsUPeriodic()) s->SetUNotPeriodic();
-  if (s->IsVPeriodic()) s->SetVNotPeriodic();
-  auto u = knots_of(s->UDegree(), s->UKnots(), s->UMultiplicities());
-  auto v = knots_of(s->VDegree(), s->VKnots(), s->VMultiplicities());
-  if (!u) return bad(u.error().code, "its knots along u: " + u.error().message);
-  if (!v) return bad(v.error().code, "its knots along v: " + v.error().message);
-  std::vector<Vec<Rational, 4>> net;
-  for (int i = 1; i <= s->NbUPoles(); ++i)
-    for (int j = 1; j <= s->NbVPoles(); ++j) {
-      const gp_Pnt p = s->Pole(i, j);
-      const auto x = exact(p.X()), y = exact(p.Y()), z = exact(p.Z()), w = exact(s->Weight(i, j));
-      if (!x || !y || !z || !w)
-        return bad(ErrorCode::bad_number, fmt::format("control point ({}, {}) of its surface is not finite", i, j));
-      net.push_back(to_homogeneous(Vec<Rational, 3>{{*x, *y, *z}}, *w));
-    }
-  Result<BsplinePatch<Rational, 4>> patch = BsplinePatch<Rational, 4>::make(*u, *v, std::move(net));
-  if (!patch) return bad(patch.error().code, patch.error().message);
-  if (!certify_denominator(*patch).is_nonzero())
-    return bad(ErrorCode::vanishing_weight, "the denominator of its surface has a zero, or none could be excluded");
-  return patch;
-}
-
-// The parameter curve of an edge on a face over [first, last].
-Result<BsplineCurve<Rational, 3>> parameters_of(const TopoDS_Edge& edge, const TopoDS_Face& face) {
-  const auto bad = [](std::string message) { return Error{ErrorCode::unsupported, "", std::move(message), ""}; };
-  double first = 0, last = 0;
-  const auto any = BRep_Tool::CurveOnSurface(edge, face, first, last);
-  if (any.IsNull()) return bad("it has no parameter curve on a face");
-  const auto begin = exact(first), end = exact(last);
-  if (!begin || !end || !(*begin < *end)) return bad("its range is empty or infinite");
-  CurveHandle curve = CurveHandle::DownCast(any);
-  if (curve.IsNull()) curve = Geom2dConvert::CurveToBSplineCurve(new Geom2d_TrimmedCurve(any, first, last));
-  if (curve.IsNull()) return bad("its parameter curve is no B-spline");
-  curve = CurveHandle::DownCast(curve->Copy());
-  if (curve->IsPeriodic()) curve->SetNotPeriodic();
-  const auto knots = knots_of(curve->Degree(), curve->Knots(), curve->Multiplicities());
-  if (!knots) return bad("the knots of its parameter curve: " + knots.error().message);
-  std::vector<Vec<Rational, 3>> points;
-  for (int i = 1; i <= curve->NbPoles(); ++i) {
-    const gp_Pnt2d p = curve->Pole(i);
-    const auto u = exact(p.X()), v = exact(p.Y()), w = exact(curve->Weight(i));
-    if (!u || !v || !w) return bad("a control point of its parameter curve is not finite");
-    if (!(Rational(0) < *w)) return bad("its parameter curve has a weight that is not positive");
-    points.push_back(to_homogeneous(Vec<Rational, 2>{{*u, *v}}, *w));
-  }
-  Result<BsplineCurve<Rational, 3>> made = BsplineCurve<Rational, 3>::make(*knots, std::move(points));
-  if (!made) return bad(made.error().message);
-  // The last digits of the range and of the knots may differ.
-  const Rational from = std::max(*begin, knots->domain_begin()), to = std::min(*end, knots->domain_end());
-  const Rational slack = (*end - *begin) / Rational(1000000);
-  if (from - *begin > slack || *end - to > slack || !(from < to))
-    return bad("its parameter curve does not cover its range");
-  const BsplineCurve<Rational, 3> part = restrict(*made, from, to);
-  // Both curves of a join run over the same numbers: a range that was cut by rounding is stretched back.
-  return from == *begin && to == *end ? part : map_domain(part, *begin, *end);
-}
-
 // The largest distance between an edge's curve in space and a parameter curve's image, at 33 parameters: sampled, and only
 // said in a note.
 double sampled_distance(const TopoDS_Edge& edge, const TopoDS_Face& face) {
@@ -159,54 +66,75 @@ double sampled_distance(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   return largest;
 }
 
+using EdgeMap = TopTools_IndexedDataMapOfShapeListOfShape;
+
+// A shape, its faces, and its edges with the indices of their faces.
+struct Topology {
+  TopoDS_Shape shape;
+  TopTools_IndexedMapOfShape faces;
+  EdgeMap edges;
+
+  explicit Topology(const TopoDS_Shape& s) : shape(s) {
+    TopExp::MapShapes(shape, TopAbs_FACE, faces);
+    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, edges);
+  }
+  TopoDS_Edge edge(int i) const { return TopoDS::Edge(edges.FindKey(i)); }
+  TopoDS_Face face(int i) const { return TopoDS::Face(faces(i)); }
+  std::vector<int> faces_of(int edge) const {
+    std::vector<int> out;
+    for (const TopoDS_Shape& face : edges(edge)) {
+      const int index = faces.FindIndex(face);
+      if (std::find(out.begin(), out.end(), index) == out.end()) out.push_back(index);
+    }
+    return out;
+  }
+};
+
+TopoDS_Shape converted(const TopoDS_Shape& shape) {
+  BRepBuilderAPI_NurbsConvert convert(shape, true);
+  if (!convert.IsDone()) throw Standard_Failure("conversion to B-splines failed");
+  return convert.Shape();
+}
+
+// The error about the first face that is not usable, when such faces are refused.
+std::optional<Error> refused(const CadModel& model, UnusableFaces unusable) {
+  if (unusable == UnusableFaces::leave_out || model.left_out.empty()) return std::nullopt;
+  const LeftOutFace& face = model.left_out.front();
+  std::string more;
+  if (const std::size_t others = model.left_out.size() - 1; others > 0)
+    more = fmt::format("; {} more {} not usable either", others, others == 1 ? "face is" : "faces are");
+  return Error{face.code, model.path + " at " + face.label, "the face is not usable: " + face.reason + more, ""};
+}
+
 class Reader {
  public:
-  Reader(CadModel& model, const Loaded& loaded) : model_(model), loaded_(loaded) {}
+  Reader(Converted& out, const Loaded& loaded)
+      : out_(out), model_(out.model), loaded_(loaded), before_(loaded.shape), after_(converted(loaded.shape)) {}
 
-  // The converted shape. ERRORS those of the first face that is not usable, when such faces are refused.
-  Result<TopoDS_Shape> read(UnusableFaces unusable) {
-    model_.left_out = loaded_.missing;
-    if (const auto error = refused(unusable)) return *error;
-    if (loaded_.shape.IsNull()) return loaded_.shape;
-    BRepBuilderAPI_NurbsConvert convert(loaded_.shape, true);
-    if (!convert.IsDone()) throw Standard_Failure("conversion to B-splines failed");
-    const TopoDS_Shape shape = convert.Shape();
-    TopTools_IndexedMapOfShape before, faces;
-    TopExp::MapShapes(loaded_.shape, TopAbs_FACE, before);
-    TopExp::MapShapes(shape, TopAbs_FACE, faces);
-    const bool in_step = before.Extent() == faces.Extent();
-    if (!in_step) model_.notes.push_back("the conversion to B-splines changed the number of faces: labels are indices");
-    for (int i = 1; i <= faces.Extent(); ++i)
-      add_face(TopoDS::Face(faces(i)), in_step ? kind_of(TopoDS::Face(before(i))) : "bspline",
-               in_step ? loaded_.face_labels[i - 1] : plain_label("face", i),
-               in_step ? loaded_.face_faults[i - 1] : "");
-    if (const auto error = refused(unusable)) return *error;
-    TopTools_IndexedDataMapOfShapeListOfShape edges;
-    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, edges);
-    const bool edges_in_step = static_cast<int>(loaded_.edge_labels.size()) == edges.Extent();
-    for (int i = 1; i <= edges.Extent(); ++i)
-      add_edge(TopoDS::Edge(edges.FindKey(i)), edges(i), faces,
-               edges_in_step ? loaded_.edge_labels[i - 1] : plain_label("edge", i));
-    return shape;
+  // ERRORS those of the first face that is not usable, when such faces are refused.
+  std::optional<Error> read(UnusableFaces unusable) {
+    in_step_ = before_.faces.Extent() == after_.faces.Extent() && before_.edges.Extent() == after_.edges.Extent();
+    for (int i = 1; in_step_ && i <= after_.edges.Extent(); ++i) in_step_ = before_.faces_of(i) == after_.faces_of(i);
+    if (!in_step_) model_.notes.push_back("the conversion to B-splines changed faces or edges: labels are indices");
+    for (int i = 1; i <= after_.faces.Extent(); ++i)
+      add_face(i, in_step_ ? kind_of(before_.face(i)) : "bspline",
+               in_step_ ? loaded_.face_labels[i - 1] : plain_label("face", i),
+               in_step_ ? loaded_.face_faults[i - 1] : "");
+    if (auto error = refused(model_, unusable)) return error;
+    for (int i = 1; i <= after_.edges.Extent(); ++i)
+      add_edge(i, in_step_ ? loaded_.edge_labels[i - 1] : plain_label("edge", i));
+    return std::nullopt;
   }
 
  private:
-  std::optional<Error> refused(UnusableFaces unusable) const {
-    if (unusable == UnusableFaces::leave_out || model_.left_out.empty()) return std::nullopt;
-    const LeftOutFace& face = model_.left_out.front();
-    std::string more;
-    if (const std::size_t others = model_.left_out.size() - 1; others > 0)
-      more = fmt::format("; {} more {} not usable either", others, others == 1 ? "face is" : "faces are");
-    return Error{face.code, model_.path + " at " + face.label, "the face is not usable: " + face.reason + more, ""};
-  }
-
-  void add_face(const TopoDS_Face& face, const std::string& kind, const std::string& label, const std::string& fault) {
+  void add_face(int index, const std::string& kind, const std::string& label, const std::string& fault) {
     place_.push_back(-1);
+    as_read_.push_back(in_step_ && same_spline(before_.face(index), after_.face(index)));
     if (!fault.empty()) {
       model_.left_out.push_back({label, ErrorCode::syntax, fault});
       return;
     }
-    Result<BsplinePatch<Rational, 4>> surface = surface_of(face);
+    Result<BsplinePatch<Rational, 4>> surface = surface_of(as_read_.back() ? before_.face(index) : after_.face(index));
     if (!surface) {
       model_.left_out.push_back({label, surface.error().code, surface.error().message});
       return;
@@ -217,37 +145,51 @@ class Reader {
     model_.faces.push_back({label, kind, std::move(*surface)});
   }
 
-  void add_edge(const TopoDS_Edge& edge, const TopTools_ListOfShape& ancestors, const TopTools_IndexedMapOfShape& faces,
-                const std::string& label) {
+  // A B-spline surface that the conversion left as it is.
+  static bool same_spline(const TopoDS_Face& before, const TopoDS_Face& after) {
+    const auto a = opencascade::handle<Geom_BSplineSurface>::DownCast(BRep_Tool::Surface(before));
+    const auto b = opencascade::handle<Geom_BSplineSurface>::DownCast(BRep_Tool::Surface(after));
+    if (a.IsNull() || b.IsNull() || a->NbUPoles() != b->NbUPoles() || a->NbVPoles() != b->NbVPoles()) return false;
+    double p[4], q[4];
+    a->Bounds(p[0], p[1], p[2], p[3]);
+    b->Bounds(q[0], q[1], q[2], q[3]);
+    return std::equal(p, p + 4, q);
+  }
+
+  void add_edge(int i, const std::string& label) {
+    const std::vector<int> indices = after_.faces_of(i);
+    // The conversion exchanges u and v in some seams of B-splines: where it is not needed, the edge is taken as it was.
+    const bool as_read =
+        std::all_of(indices.begin(), indices.end(), [&](int index) { return bool(as_read_[index - 1]); });
+    const Topology& topology = as_read && !indices.empty() ? before_ : after_;
+    const TopoDS_Edge edge = topology.edge(i);
     CadEdge out{label, CadEdgeKind::unusable, {}, BRep_Tool::Tolerance(edge), ""};
-    std::vector<int> indices;
-    for (const TopoDS_Shape& face : ancestors) {
-      const int index = faces.FindIndex(face);
-      if (std::find(indices.begin(), indices.end(), index) == indices.end()) indices.push_back(index);
-    }
+    Sources sources;
     const auto finish = [&](CadEdgeKind kind, std::string note = "") {
       out.kind = kind;
       if (!note.empty()) out.note = std::move(note);
       model_.edges.push_back(std::move(out));
+      out_.sources.push_back(std::move(sources));
     };
     if (BRep_Tool::Degenerated(edge)) return finish(CadEdgeKind::degenerate);
     if (!BRep_Tool::SameRange(edge) || !BRep_Tool::SameParameter(edge))
       return finish(CadEdgeKind::unusable, "the file says that its curves do not share one parameter");
     for (const int index : indices) {
-      const TopoDS_Face& face = TopoDS::Face(faces(index));
       if (place_[index - 1] < 0) return finish(CadEdgeKind::unusable, "one of its faces is not usable");
-      const TopoDS_Face natural = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+      const TopoDS_Face natural = TopoDS::Face(topology.face(index).Oriented(TopAbs_FORWARD));
       // A seam is met twice, once in each direction; so is an edge that runs into its face and back.
       for (TopExp_Explorer e(natural, TopAbs_EDGE); e.More(); e.Next()) {
         if (!e.Current().IsSame(edge)) continue;
-        Result<BsplineCurve<Rational, 3>> parameters = parameters_of(TopoDS::Edge(e.Current()), natural);
+        const TopoDS_Edge use = TopoDS::Edge(e.Current());
+        Result<BsplineCurve<Rational, 3>> parameters = parameters_of(use, natural);
         if (!parameters) return finish(CadEdgeKind::unusable, parameters.error().message);
-        const double away = sampled_distance(TopoDS::Edge(e.Current()), natural);
+        const double away = sampled_distance(use, natural);
         if (away > out.tolerance)
           out.note +=
               fmt::format("{}its parameter curve on face {} is {:.3g} away from its curve in space, tolerance {:.3g}",
                           out.note.empty() ? "" : "; ", model_.faces[place_[index - 1]].label, away, out.tolerance);
-        out.uses.push_back({place_[index - 1], e.Current().Orientation() == TopAbs_FORWARD, std::move(*parameters)});
+        out.uses.push_back({place_[index - 1], use.Orientation() == TopAbs_FORWARD, std::move(*parameters)});
+        sources.push_back({use, natural});
       }
     }
     if (out.uses.empty()) return finish(CadEdgeKind::unusable, "no face uses it");
@@ -257,9 +199,13 @@ class Reader {
                                  : CadEdgeKind::shared);
   }
 
+  Converted& out_;
   CadModel& model_;
   const Loaded& loaded_;
-  std::vector<int> place_;  // of each face of the shape in model_.faces, −1 when left out
+  const Topology before_, after_;  // the conversion
+  bool in_step_ = false;           // the same faces and edges in the same order
+  std::vector<int> place_;         // of each face of the shape in model_.faces, −1 when left out
+  std::vector<char> as_read_;      // faces that the conversion left as they are
 };
 
 // Open CASCADE speaks to the user through printers; its words are not ours.
@@ -303,9 +249,10 @@ Result<Converted> read_converted(const std::string& path, UnusableFaces unusable
   }
   model.units = loaded.units;
   try {
-    Result<TopoDS_Shape> shape = Reader(model, loaded).read(unusable);
-    if (!shape) return shape.error();
-    out.shape = *shape;
+    model.left_out = std::move(loaded.missing);
+    if (const auto error = refused(model, unusable)) return *error;
+    if (!loaded.shape.IsNull())
+      if (const auto error = Reader(out, loaded).read(unusable)) return *error;
   } catch (const Standard_Failure&) {
     return failed("to convert the file's shape to B-splines");
   }
