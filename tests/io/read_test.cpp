@@ -156,8 +156,8 @@ TEST(Read, TheExamplesOfTheDocumentation) {
     formats.push_back(read_good(text.substr(first, last - first), "formats.md").format);
     begin = last;
   }
-  EXPECT_EQ(formats, (std::vector<std::string>{"patchproof-model", "patchproof-model", "patchproof-model", "newell",
-                                               "bpt", "bez", "g2", "gismo", "geomdl"}));
+  EXPECT_EQ(formats, (std::vector<std::string>{"patchproof-model", "patchproof-model", "patchproof-model",
+                                               "patchproof-model", "newell", "bpt", "bez", "g2", "gismo", "geomdl"}));
 }
 
 struct Expected {
