@@ -24,11 +24,11 @@ struct Options {
   std::optional<std::string> require;
   std::optional<double> gap, angle;
   std::string profile;
-  double match = 0, budget = 10;
+  double match = 0, budget = 10, smooth_below = 5;
   int jobs = 0;
   Decimals decimals = Decimals::exact;
   std::string json;
-  bool quiet = false;
+  bool quiet = false, keep_going = false;
 };
 
 // One line on standard error, only when it is a terminal.
@@ -74,10 +74,10 @@ Outcome worse(Outcome a, Outcome b) {
 // Patches with exact numbers, or trimmed faces.
 using Input = std::variant<ModelFile, CadModel>;
 
-Result<Input> read_input(const std::string& path, Decimals decimals) {
+Result<Input> read_input(const std::string& path, Decimals decimals, [[maybe_unused]] bool keep_going) {
   if (looks_like_cad(path)) {
 #ifdef PATCHPROOF_HAVE_OCCT_READER
-    Result<CadModel> model = read_cad_model(path);
+    Result<CadModel> model = read_cad_model(path, keep_going ? UnusableFaces::leave_out : UnusableFaces::refuse);
     if (!model) return model.error();
     return Input(std::move(*model));
 #else
@@ -124,6 +124,7 @@ int run(const Options& options) {
   certify.given = certify.request;
   certify.profile = find_profile(options.profile);
   certify.match_length = options.match;
+  certify.smooth_below = options.smooth_below;
   certify.jobs = options.jobs;
   ProgressBar bar;
   certify.progress = [&](std::size_t done, std::size_t all) { bar.show(done, all); };
@@ -131,7 +132,7 @@ int run(const Options& options) {
   // All files are read before anything is reported: bad input leaves no partial report.
   std::vector<Input> files;
   for (const std::string& path : options.models) {
-    Result<Input> file = read_input(path, options.decimals);
+    Result<Input> file = read_input(path, options.decimals, options.keep_going);
     if (!file) return report_error(file.error());
     if (certify.profile)
       if (const auto request = tolerances_of(*certify.profile, units_of(*file), certify.given); !request)
@@ -209,6 +210,14 @@ void add_certify(CLI::App& app, int& exit_code) {
       ->check(between(0, 1e6))
       ->option_text("SECONDS");
   add_decimals(*command, options->decimals);
+  command
+      ->add_option(
+          "--smooth-below", options->smooth_below,
+          "STEP, IGES, BREP: edges above this angle are meant to be sharp, and no tangents are asked of them [5]")
+      ->check(between(0, 180))
+      ->option_text("DEGREES");
+  command->add_flag("--keep-going", options->keep_going,
+                    "STEP, IGES, BREP: leave out faces that are not usable, list them and report the rest");
   command->add_flag("--quiet", options->quiet, "print the summary only");
   command->callback([options, &exit_code] {
     if (options->profile == "list") {

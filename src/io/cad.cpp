@@ -8,6 +8,7 @@
 #include <atomic>
 #include <fstream>
 
+#include "edge_class.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "report_profile.h"
 
@@ -19,13 +20,16 @@ struct Pair {
   const CadUse *a, *b;
 };
 
+bool is_join(CadEdgeKind kind) {
+  return kind == CadEdgeKind::shared || kind == CadEdgeKind::seam || kind == CadEdgeKind::non_manifold;
+}
+
 // The joins of a model: neighbours at each edge.
 std::vector<Pair> pairs_of(const CadModel& model) {
   std::vector<Pair> out;
   for (std::size_t e = 0; e < model.edges.size(); ++e) {
     const CadEdge& edge = model.edges[e];
-    if (edge.kind != CadEdgeKind::shared && edge.kind != CadEdgeKind::seam && edge.kind != CadEdgeKind::non_manifold)
-      continue;
+    if (!is_join(edge.kind)) continue;
     for (std::size_t i = 0; i + 1 < edge.uses.size(); ++i)
       out.push_back({static_cast<int>(e), &edge.uses[i], &edge.uses[i + 1]});
   }
@@ -77,8 +81,12 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
   report.notes = model.notes;
   begin_request(report, options);
   for (const CadFace& face : model.faces) report.patch_names.push_back(face.label);
-  for (const CadEdge& edge : model.edges)
+  report.cad = CadReport{options.smooth_below, {}, {}};
+  for (const LeftOutFace& face : model.left_out) report.cad->left_out.push_back({face.label, face.reason});
+  for (const CadEdge& edge : model.edges) {
+    if (!is_join(edge.kind)) report.cad->no_joins.push_back({edge.label, to_string(edge.kind), edge.note});
     if (!edge.note.empty()) report.notes.push_back("edge " + edge.label + ": " + edge.note);
+  }
   const std::vector<Pair> pairs = pairs_of(model);
   report.joins.resize(pairs.size());
   std::atomic<std::size_t> done{0};
@@ -98,7 +106,8 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
       out.a = reported_side(*a, edge.label);
       out.b = reported_side(*b, edge.label);
       out.certificate = certify_trimmed(join, options.request);
-      out.judgement = judge(out.certificate, request_at(options, out.kind));
+      out.edge_class = edge_class_of(join, out.certificate, options.smooth_below, options.request.seconds_per_join);
+      out.judgement = judge_edge(out.certificate, *out.edge_class, options.smooth_below, request_at(options, out.kind));
       const std::size_t now = ++done;
       if (options.progress) options.progress(now, pairs.size());
     });

@@ -92,7 +92,10 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
 Outcome Report::outcome() const {
   // Something was asked and nothing could be looked at: that is no pass.
   const bool asked = request.require || request.gap_tolerance || request.angle_tolerance;
-  Outcome worst = asked && joins.empty() ? Outcome::undecided : Outcome::pass;
+  const bool blind =
+      cad && (!cad->left_out.empty() || std::any_of(cad->no_joins.begin(), cad->no_joins.end(),
+                                                    [](const ReportedEdge& edge) { return edge.kind == "unusable"; }));
+  Outcome worst = asked && (joins.empty() || blind) ? Outcome::undecided : Outcome::pass;
   for (const ReportedJoin& join : joins) {
     if (join.judgement.outcome == Outcome::fail) return Outcome::fail;
     if (join.judgement.outcome == Outcome::undecided) worst = Outcome::undecided;

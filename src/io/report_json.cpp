@@ -76,6 +76,7 @@ Json join_json(const Report& r, const ReportedJoin& j) {
            {"witness", witness},
            {"reasons", reasons},
            {"reason", j.judgement.reason}};
+  if (j.edge_class) out["edge_class"] = to_string(*j.edge_class);
   if (r.profile) out["checks"] = checks_json(r, j);
   return out;
 }
@@ -113,11 +114,13 @@ Json request_json(const Report& r) {
   if (r.request.require)
     require = *r.request.require == Continuity::c0 ? "C0" : *r.request.require == Continuity::c1 ? "C1" : "G1";
   const auto optional = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
-  return {{"require", require},
-          {"gap", optional(r.request.gap_tolerance)},
-          {"angle_degrees", optional(r.request.angle_tolerance)},
-          {"match", r.match_length},
-          {"budget_seconds", r.request.seconds_per_join}};
+  Json out{{"require", require},
+           {"gap", optional(r.request.gap_tolerance)},
+           {"angle_degrees", optional(r.request.angle_tolerance)},
+           {"match", r.match_length},
+           {"budget_seconds", r.request.seconds_per_join}};
+  if (r.cad) out["smooth_below_degrees"] = r.cad->smooth_below;
+  return out;
 }
 
 Json summary_json(const Report& r) {
@@ -128,15 +131,37 @@ Json summary_json(const Report& r) {
     gap = std::max(gap, j.certificate.gap.upper);
     angle = std::max(angle, j.certificate.angle.upper);
   }
-  return {{"pass", count[0]},
-          {"fail", count[1]},
-          {"undecided", count[2]},
-          {"worst_gap", number(gap)},
-          {"worst_angle_degrees", number(angle)}};
+  Json out{{"pass", count[0]},
+           {"fail", count[1]},
+           {"undecided", count[2]},
+           {"worst_gap", number(gap)},
+           {"worst_angle_degrees", number(angle)}};
+  if (r.cad) {
+    Json classes;
+    for (const EdgeClass c :
+         {EdgeClass::smooth, EdgeClass::kinked, EdgeClass::sharp, EdgeClass::mixed, EdgeClass::undecided})
+      classes[to_string(c)] =
+          std::count_if(r.joins.begin(), r.joins.end(), [&](const ReportedJoin& j) { return j.edge_class == c; });
+    out["edge_classes"] = std::move(classes);
+  }
+  return out;
 }
 
 // On one line. File names need not be UTF-8; JSON must be.
 std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+// The members of a report about a CAD model.
+std::string cad_text(const CadReport& cad) {
+  std::string out = "\"left_out_faces\":[";
+  for (std::size_t i = 0; i < cad.left_out.size(); ++i)
+    out += (i ? ",\n" : "\n") + text_of(Json{{"face", cad.left_out[i].label}, {"reason", cad.left_out[i].reason}});
+  out += "],\n\"other_edges\":[";
+  for (std::size_t i = 0; i < cad.no_joins.size(); ++i)
+    out +=
+        (i ? ",\n" : "\n") +
+        text_of(Json{{"edge", cad.no_joins[i].label}, {"kind", cad.no_joins[i].kind}, {"note", cad.no_joins[i].note}});
+  return out + "],\n";
+}
 
 // The same for an object, without the closing brace.
 std::string open_object(const Json& value) {
@@ -180,7 +205,9 @@ void write_json(std::ostream& out, const Report& r) {
                 {"tangent_plane", e.tangent_plane}}
                .dump();
   }
-  out << "],\n\"summary\":" << summary_json(r).dump() << ",\n\"verdict\":\"" << to_string(r.outcome()) << "\"}\n";
+  out << "],\n";
+  if (r.cad) out << cad_text(*r.cad);
+  out << "\"summary\":" << summary_json(r).dump() << ",\n\"verdict\":\"" << to_string(r.outcome()) << "\"}\n";
 }
 
 }  // namespace patchproof

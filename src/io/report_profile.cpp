@@ -32,6 +32,7 @@ std::optional<double> tolerance_of(const Report& report, const Criterion& criter
 std::optional<Outcome> outcome_of(const Report& report, const ReportedJoin& join, const Criterion& criterion) {
   const std::optional<double> tolerance = tolerance_of(report, criterion);
   if (!tolerance || !applies(criterion, join.kind)) return std::nullopt;
+  if (criterion.quantity == Quantity::angle && join.edge_class == EdgeClass::sharp) return std::nullopt;
   Request only;
   (criterion.quantity == Quantity::gap ? only.gap_tolerance : only.angle_tolerance) = tolerance;
   return judge(join.certificate, only).outcome;

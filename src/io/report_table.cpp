@@ -94,6 +94,7 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
     const bool part = j->kind == JoinKind::t_junction;
     std::string cls = class_text(c);
     if (c.ratio && *c.ratio != "1" && c.ratio->size() <= 12) cls += " ×" + *c.ratio;
+    if (j->edge_class) cls += std::string(", ") + to_string(*j->edge_class);
     rows.push_back({std::to_string(j->id), side_text(r, j->a, part),
                     side_text(r, j->b, part) + (j->reversed ? " ↔" : ""), cls, bound_text(c.gap),
                     bound_text(c.angle) + (c.angle.upper > 90 ? " (planes " + bound_text(c.plane_angle) + ")" : ""),
@@ -130,18 +131,22 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
   out << fmt::format("{}: {}, {} patches, decimals {}, sha256 {}…\n", r.file, r.format, r.patch_names.size(),
                      r.decimals == Decimals::exact ? "exact" : "binary64", r.sha256.substr(0, 16));
   for (const std::string& note : r.notes) out << "note: " << printable(note) << '\n';
+  if (r.cad)
+    for (const ReportedFace& face : r.cad->left_out)
+      out << "left out: face " << printable(face.label) << ": " << printable(face.reason) << '\n';
   if (!style.quiet && !r.joins.empty()) {
     out << '\n';
     write_rows(out, r, style);
     out << '\n';
   }
-  std::map<std::string, int> classes, kinds;
+  std::map<std::string, int> classes, kinds, edges;
   EnclosedMaximum gap, angle;
   int undecided = 0;
   for (const ReportedJoin& j : r.joins) {
     const Certificate& c = j.certificate;
     ++classes[class_text(c)];
     ++kinds[to_string(j.kind)];
+    if (j.edge_class) ++edges[to_string(*j.edge_class)];
     gap.lower = std::max(gap.lower, c.gap.lower), gap.upper = std::max(gap.upper, c.gap.upper);
     angle.lower = std::max(angle.lower, c.angle.lower), angle.upper = std::max(angle.upper, c.angle.upper);
     undecided += j.judgement.outcome == Outcome::undecided;
@@ -154,6 +159,7 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
   out << fmt::format("{} joins{}{}\n", r.joins.size(), r.joins.empty() ? "" : ": ", listed(kinds));
   if (!r.joins.empty()) {
     out << fmt::format("classes  {}\n", listed(classes));
+    if (r.cad) out << fmt::format("edges    {} (sharp: above {:g} degrees)\n", listed(edges), r.cad->smooth_below);
     out << fmt::format("gap      largest {}{}\n", bound_text(gap), r.units.empty() ? "" : " " + printable(r.units));
     out << fmt::format("angle    largest {} degrees\n", bound_text(angle));
   }
@@ -167,6 +173,11 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     const auto planes =
         std::count_if(r.collapsed.begin(), r.collapsed.end(), [](const auto& c) { return c.tangent_plane; });
     out << fmt::format("poles    {} collapsed edges, {} with a proven tangent plane\n", r.collapsed.size(), planes);
+  }
+  if (r.cad && !r.cad->no_joins.empty()) {
+    std::map<std::string, int> others;
+    for (const ReportedEdge& edge : r.cad->no_joins) ++others[edge.kind];
+    out << fmt::format("others   edges that are no joins: {}\n", listed(others));
   }
   if (!r.unmatched.empty()) {
     out << fmt::format("free     {} edges without a partner within {:.3g}:", r.unmatched.size(), r.match_length);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "io/io_support.h"
@@ -110,6 +111,74 @@ TEST(Cad, AnglesLieBetweenTheFacesAsTheyAreUsed) {
   const Report two = certify_cad(folded);
   EXPECT_GE(two.joins[0].certificate.angle.lower, 180 - 1e-9);
   EXPECT_LE(two.joins[1].certificate.angle.upper, 1e-9);
+}
+
+TEST(Cad, EdgesAreClassified) {
+  const auto classes = [](const CadModel& model, double smooth_below) {
+    CertifyOptions options;
+    options.smooth_below = smooth_below;
+    std::vector<EdgeClass> out;
+    for (const ReportedJoin& join : certify_cad(model, options).joins) out.push_back(join.edge_class.value());
+    return out;
+  };
+  using C = EdgeClass;
+  CadModel model = workshop();
+  EXPECT_EQ(classes(model, 5), (std::vector<C>{C::sharp, C::smooth, C::sharp, C::smooth, C::sharp}));
+  EXPECT_EQ(classes(model, 120), (std::vector<C>{C::kinked, C::smooth, C::kinked, C::smooth, C::sharp}));
+  EXPECT_EQ(classes(model, 90)[0], C::kinked);  // not above
+  EXPECT_EQ(classes(model, 180), (std::vector<C>{C::kinked, C::smooth, C::kinked, C::smooth, C::kinked}));
+  // The step twists from the floor's plane at one end to 45° at the other: it is no sharp edge, whatever its largest angle.
+  model.faces[2].surface = bilinear({{{1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 1}}});
+  EXPECT_EQ(classes(model, 5)[1], C::mixed);
+  EXPECT_EQ(classes(model, 50)[1], C::kinked);
+  // From 45° to 63°: sharp, and neither below nor above 50°.
+  model.faces[2].surface = bilinear({{{1, 0, 0}, {1, 1, 0}, {2, 0, 1}, {2, 1, 2}}});
+  EXPECT_EQ(classes(model, 5)[1], C::sharp);
+  EXPECT_EQ(classes(model, 50)[1], C::mixed);
+}
+
+TEST(Cad, OfSharpEdgesNoTangentsAreAsked) {
+  CadModel model = workshop();
+  model.edges = {model.edges[0], model.edges[1]};
+  CertifyOptions options;
+  options.request.require = Continuity::g1;
+  options.request.angle_tolerance = 1;
+  EXPECT_EQ(certify_cad(model, options).outcome(), Outcome::pass);
+  options.smooth_below = 180;  // nothing is meant to be sharp
+  const Report strict = certify_cad(model, options);
+  EXPECT_EQ(strict.joins[0].judgement.outcome, Outcome::fail);
+  EXPECT_EQ(strict.joins[1].judgement.outcome, Outcome::pass);
+  // A sharp edge must still be closed.
+  options.smooth_below = 5;
+  model.faces[1].surface = bilinear({{{1, 0, 0}, {1, 1, 1}, {1, 0, 1}, {1, 1, 2}}});
+  EXPECT_EQ(certify_cad(model, options).joins[0].judgement.outcome, Outcome::fail);
+  // An edge that is sharp in one part only is judged by its tangents.
+  model.faces[2].surface = bilinear({{{1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 1}}});
+  EXPECT_EQ(certify_cad(model, options).joins[1].judgement.outcome, Outcome::fail);
+}
+
+TEST(Cad, WhatCannotBeLookedAtIsNoPass) {
+  CadModel model = workshop();
+  CertifyOptions options;
+  EXPECT_EQ(certify_cad(model, options).outcome(), Outcome::pass);  // nothing is asked
+  options.request.gap_tolerance = 1;
+  EXPECT_EQ(certify_cad(model, options).outcome(), Outcome::undecided);  // edge #17
+  model.edges.pop_back();
+  EXPECT_EQ(certify_cad(model, options).outcome(), Outcome::pass);
+  model.left_out.push_back({"#5", ErrorCode::vanishing_weight, "the denominator of its surface has a zero"});
+  const Report report = certify_cad(model, options);
+  EXPECT_EQ(report.outcome(), Outcome::undecided);
+  const auto document = nlohmann::json::parse(json_of(report));
+  EXPECT_EQ(document["left_out_faces"][0]["face"], "#5");
+  EXPECT_EQ(document["other_edges"].size(), 2u);
+  EXPECT_EQ(document["other_edges"][0], (nlohmann::json{{"edge", "#15"}, {"kind", "free"}, {"note", ""}}));
+  EXPECT_EQ(document["summary"]["edge_classes"]["sharp"], 3);
+  EXPECT_EQ(document["request"]["smooth_below_degrees"], 5);
+  EXPECT_EQ(document["joins"][0]["edge_class"], "sharp");
+  std::ostringstream table;
+  write_table(table, report);
+  for (const char* part : {"left out: face #5: the denominator", "2 smooth", "3 sharp", "1 degenerate, 1 free"})
+    EXPECT_NE(table.str().find(part), std::string::npos) << part << '\n' << table.str();
 }
 
 TEST(Cad, Law5_TheJobsDoNotChangeTheReport) {

@@ -12,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,17 @@ struct ReportedSide {
   std::string exact_begin, exact_end;  // the same as exact numbers
 };
 
+// Edges of CAD models by the angle between the faces' normals. Below kSmoothDegrees it is not seen in a reflection.
+enum class EdgeClass {
+  smooth,    // nowhere above kSmoothDegrees
+  kinked,    // above that somewhere, and nowhere above CertifyOptions::smooth_below
+  sharp,     // everywhere above smooth_below: meant to be an edge
+  mixed,     // above smooth_below in one place, not in another
+  undecided  // the bounds do not tell
+};
+inline constexpr double kSmoothDegrees = 0.1;
+const char* to_string(EdgeClass edge_class);
+
 struct ReportedJoin {
   int id = 0;  // 1-based
   ReportedSide a, b;
@@ -41,6 +53,23 @@ struct ReportedJoin {
   std::string pairing_ratio;  // exact r of a rational linear pairing, else ""
   Certificate certificate;
   Judgement judgement;
+  std::optional<EdgeClass> edge_class;  // of CAD models
+};
+
+// An edge of a CAD model that is no join.
+struct ReportedEdge {
+  std::string label, kind, note;  // kind: "free", "degenerate", "unusable"
+};
+
+struct ReportedFace {
+  std::string label, reason;
+};
+
+// What only CAD models have.
+struct CadReport {
+  double smooth_below = 0;             // degrees
+  std::vector<ReportedFace> left_out;  // faces that are not usable
+  std::vector<ReportedEdge> no_joins;
 };
 
 struct Report {
@@ -53,8 +82,10 @@ struct Report {
   std::vector<ReportedJoin> joins;
   std::vector<EdgeRange> unmatched;
   std::vector<CollapsedEdge> collapsed;
+  std::optional<CadReport> cad;
 
-  // pass, fail or undecided over all joins; undecided when something was asked and there is no join.
+  // pass, fail or undecided over all joins; undecided when something was asked and there is no join, or a face or an edge
+  // could not be looked at.
   Outcome outcome() const;
 };
 
@@ -64,6 +95,7 @@ struct CertifyOptions {
   const Profile* profile = nullptr;
   Request given;
   double match_length = 0;                                          // 0: 1e-6 of the diagonal
+  double smooth_below = 5;                                          // degrees: see EdgeClass
   int jobs = 0;                                                     // 0: one thread per processor
   std::function<void(std::size_t done, std::size_t all)> progress;  // called from any thread
 };

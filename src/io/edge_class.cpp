@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "edge_class.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace patchproof {
+
+const char* to_string(EdgeClass edge_class) {
+  switch (edge_class) {
+    case EdgeClass::smooth: return "smooth";
+    case EdgeClass::kinked: return "kinked";
+    case EdgeClass::sharp: return "sharp";
+    case EdgeClass::mixed: return "mixed";
+    case EdgeClass::undecided: return "undecided";
+  }
+  return "unknown";
+}
+
+EdgeClass edge_class_of(const TrimmedJoin& join, const Certificate& certificate, double smooth_below,
+                        double seconds_per_join) {
+  const EnclosedMaximum& angle = certificate.angle;
+  const double smooth = std::min(kSmoothDegrees, smooth_below);
+  if (angle.upper <= smooth) return EdgeClass::smooth;
+  if (angle.lower > smooth && angle.upper <= smooth_below) return EdgeClass::kinked;
+  if (!(angle.lower > smooth_below)) return EdgeClass::undecided;
+  // With one face turned over, angles become 180° minus themselves, and the largest the smallest.
+  TrimmedJoin turned = join;
+  turned.b.flipped = !turned.b.flipped;
+  Budget budget;
+  budget.nodes = 200;
+  budget.deadline = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                           std::chrono::duration<double>(seconds_per_join));
+  const RoundingGuard guard;
+  const TrimmedBound largest = bound_trimmed(turned, budget).angle;
+  if (180 - largest.upper > smooth_below) return EdgeClass::sharp;
+  return 180 - largest.lower <= smooth_below ? EdgeClass::mixed : EdgeClass::undecided;
+}
+
+Judgement judge_edge(const Certificate& certificate, EdgeClass edge_class, double smooth_below, Request request) {
+  const Judgement strict = judge(certificate, request);
+  const bool perhaps_sharp = edge_class == EdgeClass::undecided && certificate.angle.lower > smooth_below;
+  if (edge_class != EdgeClass::sharp && !perhaps_sharp) return strict;
+  request.angle_tolerance.reset();
+  if (request.require) request.require = Continuity::c0;
+  const Judgement lenient = judge(certificate, request);
+  if (edge_class == EdgeClass::sharp || lenient.outcome == strict.outcome) return lenient;
+  return {Outcome::undecided, "whether the edge is sharp along its whole length is not decided"};
+}
+
+}  // namespace patchproof

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edges of CAD models: which are smooth, which are meant to be sharp, and what is asked of which.
+#pragma once
+
+#include "patchproof/io/report.h"
+#include "patchproof/join/trimmed_join.h"
+
+namespace patchproof {
+
+// The certificate bounds the largest angle along the edge; what an edge above `smooth_below` degrees is depends on its
+// smallest angle, which is bounded here.
+EdgeClass edge_class_of(const TrimmedJoin& join, const Certificate& certificate, double smooth_below,
+                        double seconds_per_join);
+
+// Of a sharp edge no tangents are asked: C0 instead of C1 and G1, and no angle. Where it is not decided whether the edge is
+// sharp throughout, what would fail for its angle is undecided.
+Judgement judge_edge(const Certificate& certificate, EdgeClass edge_class, double smooth_below, Request request);
+
+}  // namespace patchproof
