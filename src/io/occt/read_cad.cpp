@@ -4,9 +4,6 @@
 #include <BRep_Tool.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <Message_Printer.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -26,6 +23,7 @@
 #include "converted.h"
 #include "load.h"
 #include "patchproof/io/cad.h"
+#include "silence.h"
 #include "splines.h"
 
 namespace patchproof::occt {
@@ -206,22 +204,6 @@ class Reader {
   bool in_step_ = false;           // the same faces and edges in the same order
   std::vector<int> place_;         // of each face of the shape in model_.faces, −1 when left out
   std::vector<char> as_read_;      // faces that the conversion left as they are
-};
-
-// Open CASCADE speaks to the user through printers; its words are not ours.
-class Silence {
- public:
-  Silence() : printers_(Message::DefaultMessenger()->Printers()) {
-    Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
-  }
-  ~Silence() {
-    for (const auto& printer : printers_) Message::DefaultMessenger()->AddPrinter(printer);
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  const Message_SequenceOfPrinters printers_;
 };
 
 }  // namespace

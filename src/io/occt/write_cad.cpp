@@ -103,6 +103,8 @@ class CadWriter {
     for (std::size_t k = 0; k < model_.curves.size(); ++k)
       if (const auto error = add_curve(model_.curves[k], fmt::format("curve {}", k))) return *error;
     WrittenModel out{"", std::move(notes_)};
+    if (model_.patches.size() > 1)
+      out.notes.push_back("each patch is a face by itself: edges that meet are not shared");
     const bool has_names = format_ == CadFormat::step;
     for (std::string& note : left_out(model_, has_names, true)) out.notes.push_back(std::move(note));
     const auto is_changed = [](const Part& part) { return plain(part.name) != part.name; };
