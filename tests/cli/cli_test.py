@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True  # the sources may be read-only
 if len(sys.argv) < 3:
     sys.exit(__doc__)
 from command import CUP, DATA, EXAMPLES, KINK, PROGRAM, SPHERE, Command, run
+from convert_cases import Convert, Profiles
 from curve_cases import Curves
 
 
