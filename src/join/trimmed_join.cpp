@@ -215,7 +215,7 @@ class Bounder {
   };
 
   TrimmedBound bound(Deviation what) {
-    constexpr int kMaxDepth = 45;
+    constexpr int kMaxDepth = 40;  // that of slivers
     const double worst = what == Deviation::gap ? kInfinity : what == Deviation::angle ? 180 : 90;
     const double floor = what == Deviation::gap ? std::ldexp(size_, -36) : 0x1p-34;  // degrees: 6e-11
     TrimmedBound out{0, 0, begin_, true};
@@ -229,14 +229,16 @@ class Bounder {
       for (const DeviationPiece& form : forms) {
         const DeviationBound b = bound_deviation({form}, what, one);
         upper = std::max(upper, b.upper);
-        if (b.lower < lower) lower = b.lower, at = b.t;
+        // Of several polynomials that may be meant, all must be as far apart at one and the same place: the begin.
+        const DeviationBound at_begin =
+            forms.size() == 1 ? b : bound_deviation({{{form.coefficients.front()}}}, what, one);
+        if (at_begin.lower < lower) lower = at_begin.lower, at = forms.size() == 1 ? b.t : 0;
       }
-      // With several polynomials in question the smallest lower bound holds only if they share the witness.
-      if (forms.size() == 1 && lower > out.lower) {
+      if (!forms.empty() && lower > out.lower) {
         out.lower = lower;
         out.t = piece.begin + (piece.end - piece.begin) * from_double(at);
       }
-      if (piece.depth >= kMaxDepth || upper <= out.lower || forms.size() > 1)
+      if (piece.depth >= kMaxDepth || upper <= out.lower)
         settled = std::max(settled, upper);
       else
         queue.push({upper, std::move(piece)});
