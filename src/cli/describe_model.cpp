@@ -186,7 +186,10 @@ template <ExactField T>
 std::string seam_text(const BsplineCurve<T, 4>& curve) {
   const Smoothness<T, 3> seam = closing_smoothness_rational(curve);
   if (seam.order < 0) return "open";
-  return fmt::format("closed, {} at the seam{}", class_name(seam.order), seam.has_tangent ? "" : " with a corner");
+  return fmt::format("closed, {} at the seam{}", class_name(seam.order),
+                     seam.has_tangent ? ""
+                     : seam.order > 0 ? ", no tangent there"
+                                      : " with a corner");
 }
 
 template <ExactField T>

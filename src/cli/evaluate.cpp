@@ -8,13 +8,14 @@
 #include "cli/commands.h"
 #include "patchproof/io/read.h"
 #include "patchproof/patch/rational_patch.h"
+#include "patchproof/patch/transfinite.h"
 
 namespace patchproof::cli {
 namespace {
 
 struct Options {
   std::string model, at, scalar = "rational", json;
-  std::optional<int> patch, curve;
+  std::optional<int> patch, curve, solid;
   int derivatives = 0;
   bool left = false;
   Decimals decimals = Decimals::exact;
@@ -28,7 +29,7 @@ struct Evaluation {
     std::vector<std::pair<char, int>> order;  // {{'u', 1}, {'v', 1}}, {{'t', 2}}
     std::vector<std::string> value;
   };
-  const char* what;  // "patch" or "curve"
+  const char* what;  // "patch", "curve" or "solid"
   int index;
   std::vector<Row> rows;
 };
@@ -117,6 +118,59 @@ Result<std::vector<Evaluation::Row>> evaluate_curve(const ModelCurve<T>& model, 
   return rows(derivatives_at(model.curve, *t, nearest_double(*t), o), model.dimension);
 }
 
+// All derivatives of total order up to the one asked, from the series of a solid.
+template <Ring R>
+std::vector<Evaluation::Row> rows(const Vec<PowerSeries<R, 3>, 3>& series, int order) {
+  std::vector<Evaluation::Row> out;
+  for (int total = 0; total <= order; ++total)
+    for (int k = total; k >= 0; --k)
+      for (int l = total - k; l >= 0; --l) {
+        const int m = total - k - l;
+        Vec<R, 3> x;
+        for (int c = 0; c < 3; ++c) x[c] = series[c].derivative({k, l, m});
+        out.push_back({total == 0 ? "V" : "V_" + std::string(k, 'u') + std::string(l, 'v') + std::string(m, 'w'),
+                       {{'u', k}, {'v', l}, {'w', m}},
+                       texts(x, 3)});
+      }
+  return out;
+}
+
+// The affine series at x of the piece of the solid that is its limit at the place.
+template <Ring R, ExactField T>
+Vec<PowerSeries<R, 3>, 3> series_at(const TransfiniteMap<T, 3, 4>& map, const ParameterPlace<T, 3>& place,
+                                    const std::array<R, 3>& x, int order) {
+  std::array<PowerSeries<R, 3>, 3> variables;
+  for (std::size_t s = 0; s < 3; ++s) variables[s] = PowerSeries<R, 3>::variable(s, x[s], order);
+  return project(evaluate_at<PowerSeries<R, 3>>(map, place, variables));
+}
+
+template <ExactField T>
+Result<std::vector<Evaluation::Row>> evaluate_solid(const TransfiniteMap<T, 3, 4>& map, const Options& o) {
+  std::array<T, 3> at;
+  std::string_view rest = o.at;
+  for (std::size_t s = 0; s < 3; ++s) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (s == 2))
+      return Error{ErrorCode::usage, "--at", "three parameters U,V,W are needed", o.at};
+    const Result<T> x = parameter(std::string(1, "uvw"[s]).c_str(), std::string(rest.substr(0, comma)),
+                                  KnotVector<T>::bezier(1, map.domain_begin(s), map.domain_end(s)));
+    if (!x) return x.error();
+    at[s] = *x;
+    if (s < 2) rest.remove_prefix(comma + 1);
+  }
+  const ParameterPlace<T, 3> place(at, o.side());
+  const int k = o.derivatives;
+  if (o.scalar == "rational") return rows(rational_taylor(map, place, k), k);
+  if (o.scalar == "interval") {
+    const RoundingGuard guard;
+    return rows(
+        series_at<Interval>(map, place, {embed<Interval>(at[0]), embed<Interval>(at[1]), embed<Interval>(at[2])}, k),
+        k);
+  }
+  return rows(series_at<double>(map, place, {nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2])}, k),
+              k);
+}
+
 // `count` curves or patches: is there one of this index?
 std::optional<Error> check_index(const char* option, const char* plural, std::size_t count, int index) {
   if (index >= 0 && static_cast<std::size_t>(index) < count) return std::nullopt;
@@ -127,6 +181,12 @@ std::optional<Error> check_index(const char* option, const char* plural, std::si
 
 template <ExactField T>
 Result<Evaluation> evaluate_model(const Model<T>& model, const Options& o) {
+  if (o.solid) {
+    if (const auto error = check_index("--solid", "solids", model.solids.size(), *o.solid)) return *error;
+    Result<std::vector<Evaluation::Row>> rows = evaluate_solid(model.solids[*o.solid].map, o);
+    if (!rows) return rows.error();
+    return Evaluation{"solid", *o.solid, std::move(*rows)};
+  }
   const bool curve = o.curve || (!o.patch && model.patches.empty());
   if (curve && !o.curve && model.curves.size() > 1)
     return Error{ErrorCode::usage, "evaluate",
@@ -177,16 +237,18 @@ int run(const Options& o) {
 void add_evaluate(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("evaluate", "points and derivatives of one patch or curve, exactly or enclosed");
+      app.add_subcommand("evaluate", "points and derivatives of one patch, curve or solid, exactly or enclosed");
   command->add_option("model", o->model, "file to read")->required()->type_name("MODEL");
   CLI::Option* patch = command->add_option("--patch", o->patch, "which patch, from 0 [0]")->option_text("I");
-  command->add_option("--curve", o->curve, "which curve, from 0 [the only one of a model without patches]")
-      ->excludes(patch)
-      ->option_text("I");
+  CLI::Option* curve =
+      command->add_option("--curve", o->curve, "which curve, from 0 [the only one of a model without patches]");
+  curve->excludes(patch)->option_text("I");
+  command->add_option("--solid", o->solid, "which solid, from 0")->excludes(patch)->excludes(curve)->option_text("I");
   command
-      ->add_option("--at", o->at, "parameters in the own domain of the patch, e.g. 1/3,0.25, or of the curve, e.g. 1/3")
+      ->add_option("--at", o->at,
+                   "parameters in the own domain of the patch, e.g. 1/3,0.25, of the curve or of the solid")
       ->required()
-      ->option_text("U,V|T");
+      ->option_text("U,V|T|U,V,W");
   command->add_option("--derivatives", o->derivatives, "all derivatives up to this order [0]")
       ->check(CLI::Range(0, 20))
       ->option_text("K");

@@ -11,6 +11,7 @@
 #include "edge_class.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "report_profile.h"
+#include "source_file.h"
 
 namespace patchproof {
 namespace {
@@ -65,10 +66,7 @@ bool looks_like_cad(const std::string& path) {
   std::string head(4096, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
-  // IGES: 80 columns, the 73rd of the first line is an S.
-  return head.find("ISO-10303-21") != std::string::npos || head.find("DBRep_DrawableShape") != std::string::npos ||
-         head.find("CASCADE Topology") != std::string::npos ||
-         (head.size() > 80 && head[72] == 'S' && (head[80] == '\n' || head[80] == '\r'));
+  return begins_cad_file(head);
 }
 
 Report certify_cad(const CadModel& model, const CertifyOptions& options) {

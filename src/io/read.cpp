@@ -27,18 +27,27 @@ constexpr Format kG2{"g2", "g2", read_g2};
 constexpr Format kGismo{"gismo", "xml", read_gismo};
 constexpr Format kModel{"patchproof-model", "json", read_json_model};
 constexpr Format kGeomdl{"geomdl", "json", read_geomdl};
+constexpr Format kTinyspline{"tinyspline", "json", read_tinyspline};
+constexpr Format kObj{"obj", "obj", read_obj};
 
-// Ends the walk at the first key that tells the two JSON formats apart.
+// Ends the walk at the first key that tells the JSON formats apart.
 class JsonKind final : public JsonVisitor {
  public:
-  enum Node { kRoot, kFormat, kShape };
-  static constexpr JsonRule kRules[] = {{kNoParent, "", kRoot, JsonType::object},
-                                        {kRoot, "format", kFormat, JsonType::string},
-                                        {kRoot, "shape", kShape, JsonType::object}};
+  enum Node { kRoot, kFormat, kShape, kCoordinates, kObjects, kObject, kArchive };
+  static constexpr JsonRule kRules[] = {
+      {kNoParent, "", kRoot, JsonType::object},           {kRoot, "format", kFormat, JsonType::string},
+      {kRoot, "shape", kShape, JsonType::object},         {kRoot, "control_points", kCoordinates, JsonType::array},
+      {kRoot, "archive3dm", kArchive, JsonType::integer}, {kNoParent, "", kObjects, JsonType::array},
+      {kObjects, "", kObject, JsonType::object},          {kObject, "archive3dm", kArchive, JsonType::integer}};
   std::optional<Error> begin(int node, const JsonWalker& walker) override {
-    return node == kShape ? found(kGeomdl, walker) : std::nullopt;
+    if (node == kShape) return found(kGeomdl, walker);
+    return node == kCoordinates ? found(kTinyspline, walker) : std::nullopt;
   }
-  std::optional<Error> leaf(int, std::string_view, const JsonWalker& walker) override { return found(kModel, walker); }
+  std::optional<Error> leaf(int node, std::string_view, const JsonWalker& walker) override {
+    if (node == kFormat) return found(kModel, walker);
+    return walker.error(ErrorCode::unsupported,
+                        "rhino3dm's JSON, packed binary data of openNURBS, is not read: export STEP or IGES");
+  }
 
   std::optional<Format> format;
 
@@ -54,8 +63,10 @@ Result<Format> recognise_json(const SourceFile& source) {
   const std::optional<Error> error = JsonWalker(source, JsonKind::kRules, UnknownKeys::skipped, kind).walk();
   if (kind.format) return *kind.format;
   if (error) return *error;
-  return Error{ErrorCode::unknown_format, source.path,
-               "a JSON file with neither \"format\" (patchproof-model) nor \"shape\" (geomdl)", ""};
+  return Error{
+      ErrorCode::unknown_format, source.path,
+      "a JSON file with neither \"format\" (patchproof-model), \"shape\" (geomdl) nor \"control_points\" (tinyspline)",
+      ""};
 }
 
 std::string extension_of(std::string_view path) {
@@ -73,6 +84,13 @@ std::size_t word_count(std::string_view line) {
   std::size_t count = 0;
   while (!cursor.next().empty()) ++count;
   return count;
+}
+
+// Free-form geometry in an OBJ file has its type named, in a line of its own.
+bool holds_curve_type(std::string_view bytes) {
+  for (std::size_t at = bytes.find("cstype"); at != std::string_view::npos; at = bytes.find("cstype", at + 1))
+    if (at == 0 || bytes[at - 1] == '\n' || bytes[at - 1] == '\r') return true;
+  return false;
 }
 
 // The first two lines tell the text formats apart.
@@ -99,12 +117,18 @@ Result<Format> recognise(const SourceFile& source) {
   const char c = source.bytes[begin];
   const std::string extension = extension_of(source.path);
   if (c == '{' || c == '[' || extension == kModel.extension) return recognise_json(source);
+  if (begins_cad_file(source.bytes))
+    return Error{ErrorCode::unsupported, source.path,
+                 "a STEP, IGES or BREP file holds trimmed faces: certify reads it, and convert its surfaces", ""};
   if (c == '<' || extension == kGismo.extension) return kGismo;
+  if (extension == kObj.extension || holds_curve_type(source.bytes)) return kObj;
+  if (source.bytes.starts_with("3D Geometry File Format"))
+    return Error{ErrorCode::unsupported, source.path, "Rhino's .3dm is not read: export STEP or IGES", ""};
   if (const std::optional<Format> format = recognise_text(source)) return *format;
   for (const Format& format : {kBpt, kBez, kG2})
     if (extension == format.extension) return format;
   return Error{ErrorCode::unknown_format, source.path,
-               "neither JSON, G+Smo XML, .g2, .bpt, .bez nor Newell's format (docs/formats.md)", ""};
+               "neither JSON, G+Smo XML, .g2, .bpt, .bez, OBJ nor Newell's format (docs/formats.md)", ""};
 }
 
 // Either the model in `file`, or the error; `met_root` asks for a wider number type.

@@ -92,6 +92,14 @@ Result<std::string> load_file(const std::string& path) {
   return bytes;
 }
 
+bool begins_cad_file(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, 4096);
+  const auto has = [&](std::string_view words) { return head.find(words) != std::string_view::npos; };
+  // IGES: 80 columns, the 73rd of the first line is an S.
+  return has("ISO-10303-21") || has("DBRep_DrawableShape") || has("CASCADE Topology") ||
+         (head.size() > 80 && head[72] == 'S' && (head[80] == '\n' || head[80] == '\r'));
+}
+
 std::string sha256_of(std::string_view bytes) {
   char digits[SHA256_DIGEST_STRING_LENGTH];
   SHA256Data(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), digits);

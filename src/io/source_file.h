@@ -27,6 +27,9 @@ struct SourceFile {
 inline constexpr long long kMaxFileBytes = 1LL << 30;
 Result<std::string> load_file(const std::string& path);
 
+// Do these bytes begin a STEP, IGES or BREP file?
+bool begins_cad_file(std::string_view bytes);
+
 // 64 lower-case hexadecimal digits.
 std::string sha256_of(std::string_view bytes);
 
