@@ -45,6 +45,8 @@ std::string RawSpline::knot_pointer(int direction, std::size_t k) const {
 
 std::string RawSpline::coordinate_pointer(std::size_t point, int component) const {
   if (layout == JsonLayout::none) return {};
+  if (layout == JsonLayout::tinyspline)
+    return fmt::format("{}/{}", points_pointer(), point * static_cast<std::size_t>(per_point) + component);
   if (layout == JsonLayout::point) return fmt::format("{}/{}", pointer, component);
   const std::string array = layout == JsonLayout::geomdl ? member_pointer("control_points/points") : points_pointer();
   return fmt::format("{}/{}", element_pointer(array, point), component);

@@ -29,7 +29,8 @@ enum class JsonLayout {
   none,
   model,
   geomdl,
-  point,  // of our model: the whole is one point, [x, y, z]
+  tinyspline,  // coordinates in one list
+  point,       // of our model: the whole is one point, [x, y, z]
 };
 
 // A curve (one direction) or a patch (two: u and v).
@@ -122,5 +123,7 @@ std::optional<Error> read_g2(const SourceFile& source, ModelSink& sink);
 std::optional<Error> read_gismo(const SourceFile& source, ModelSink& sink);
 std::optional<Error> read_json_model(const SourceFile& source, ModelSink& sink);
 std::optional<Error> read_geomdl(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_tinyspline(const SourceFile& source, ModelSink& sink);
+std::optional<Error> read_obj(const SourceFile& source, ModelSink& sink);
 
 }  // namespace patchproof

@@ -34,11 +34,14 @@ constexpr Format kObj{"obj", "obj", read_obj};
 class JsonKind final : public JsonVisitor {
  public:
   enum Node { kRoot, kFormat, kShape, kCoordinates, kObjects, kObject, kArchive };
-  static constexpr JsonRule kRules[] = {
-      {kNoParent, "", kRoot, JsonType::object},           {kRoot, "format", kFormat, JsonType::string},
-      {kRoot, "shape", kShape, JsonType::object},         {kRoot, "control_points", kCoordinates, JsonType::array},
-      {kRoot, "archive3dm", kArchive, JsonType::integer}, {kNoParent, "", kObjects, JsonType::array},
-      {kObjects, "", kObject, JsonType::object},          {kObject, "archive3dm", kArchive, JsonType::integer}};
+  static constexpr JsonRule kRules[] = {{kNoParent, "", kRoot, JsonType::object},
+                                        {kNoParent, "", kObjects, JsonType::array},
+                                        {kRoot, "format", kFormat, JsonType::string},
+                                        {kRoot, "shape", kShape, JsonType::object},
+                                        {kRoot, "control_points", kCoordinates, JsonType::array},
+                                        {kRoot, "archive3dm", kArchive, JsonType::integer},
+                                        {kObjects, "", kObject, JsonType::object},
+                                        {kObject, "archive3dm", kArchive, JsonType::integer}};
   std::optional<Error> begin(int node, const JsonWalker& walker) override {
     if (node == kShape) return found(kGeomdl, walker);
     return node == kCoordinates ? found(kTinyspline, walker) : std::nullopt;
