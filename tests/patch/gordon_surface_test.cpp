@@ -50,6 +50,22 @@ TEST(GordonSurface, Law3_TwoCurvesEachWayAreACoonsPatch) {
   EXPECT_TRUE(identical(gordon_surface(network).value(), coons_patch(b).value()));
 }
 
+// A curve that jumps where another crosses it has no one point there, whichever of its two ends the other one meets.
+TEST(GordonSurface, Law1_AJumpAtACrossingIsNoCrossing) {
+  for (const int z : {0, 5}) {
+    const auto jump = knots_of(1, {0, 0, 1, 1, 2, 2});
+    const auto along_u = [&](int y) {
+      return Surface::blend(0, jump, {p(0, y, 0), p(1, y, 0), p(1, y, 5), p(2, y, 5)}).value();
+    };
+    const auto along_v = [](int x, int height) { return bezier(1, {p(x, 0, height), p(x, 1, height)}); };
+    const Network network{{0, 1, 2}, {0, 1}, {along_u(0), along_u(1)}, {along_v(0, 0), along_v(1, z), along_v(2, 5)}};
+    const auto s = gordon_surface(network);
+    ASSERT_FALSE(s);
+    EXPECT_EQ(s.error().code, ErrorCode::curves_apart);
+    EXPECT_EQ(s.error().where, "u = 1, v = 0");
+  }
+}
+
 TEST(GordonSurface, BadNetworksAreNamed) {
   RandomRationals random;
   const Network good = network_of(random_patch(random, 0, 1, 0, 1), {0, "1/2"_q, 1}, {0, 1});
@@ -69,7 +85,7 @@ TEST(GordonSurface, BadNetworksAreNamed) {
   bad = good;
   bad.u = {0, "1/2"_q, 2};
   EXPECT_EQ(gordon_surface(bad).error().code, ErrorCode::domains_differ);
-  EXPECT_EQ(gordon_surface(Network{}).error().code, ErrorCode::decreasing_knots);
+  EXPECT_EQ(gordon_surface(Network{}).error().code, ErrorCode::wrong_count);
   const auto knots = knots_of(1, {0, 0, "3/4"_q, 1, 1});
   bad = good;
   bad.u = {0, "1/8"_q, "1/2"_q};

@@ -107,12 +107,15 @@ Result<TransfiniteMap<T, 2, N, K>> gordon_surface(const CurveNetwork<T, N, K>& n
   for (std::size_t i = 0; i < network.u.size(); ++i) {
     std::vector<Map> points;
     for (std::size_t j = 0; j < network.v.size(); ++j) {
-      const ParameterPlace<K, 2> place({network.u[i], network.v[j]});
-      const Vec<T, N> on_u = evaluate(network.along_u[j], place), on_v = evaluate(network.along_v[i], place);
-      if (!(on_u == on_v))
-        return Error{ErrorCode::curves_apart, "u = " + to_text(network.u[i]) + ", v = " + to_text(network.v[j]),
-                     "curve " + std::to_string(j) + " along u and curve " + std::to_string(i) + " along v do not cross",
-                     detail::point_text(on_u) + " and " + detail::point_text(on_v)};
+      const ParameterPlace<K, 2> place({network.u[i], network.v[j]}), before(place.at, Side::left);
+      const Vec<T, N> on_u = evaluate(network.along_u[j], place);
+      for (const auto& [curve, from] : {std::pair(&network.along_v[i], &place), std::pair(&network.along_v[i], &before),
+                                        std::pair(&network.along_u[j], &before)})
+        if (const Vec<T, N> other = evaluate(*curve, *from); !(on_u == other))
+          return Error{ErrorCode::curves_apart, "u = " + to_text(network.u[i]) + ", v = " + to_text(network.v[j]),
+                       "curve " + std::to_string(j) + " along u and curve " + std::to_string(i) +
+                           " along v do not cross, or one of them jumps there",
+                       detail::point_text(on_u) + " and " + detail::point_text(other)};
       points.push_back(on_u);
     }
     through_points.push_back(detail::cardinal_blend(1, knots_v, *cardinal_v, points));
@@ -125,10 +128,16 @@ Result<TransfiniteMap<T, 2, N, K>> gordon_surface(const CurveNetwork<T, N, K>& n
 template <ExactField T, std::size_t N, ExactField K>
 Result<TransfiniteMap<T, 2, N, K>> gordon_surface(const CurveNetwork<T, N, K>& network) {
   for (const std::vector<K>* sites : {&network.u, &network.v})
-    for (std::size_t i = 0; i + 1 < sites->size() || i < 1; ++i)
-      if (sites->size() < 2 || !((*sites)[i] < (*sites)[i + 1]))
-        return Error{ErrorCode::decreasing_knots, sites == &network.u ? "u" : "v",
-                     "the parameters of a network are at least two, in growing order", ""};
+    for (std::size_t i = 0; i + 1 < sites->size() || i < 1; ++i) {
+      const char* const name = sites == &network.u ? "u" : "v";
+      if (sites->size() < 2)
+        return Error{ErrorCode::wrong_count, name, "a network has at least two parameters each way",
+                     std::to_string(sites->size())};
+      if (!((*sites)[i] < (*sites)[i + 1]))
+        return Error{ErrorCode::decreasing_knots, name,
+                     "parameter " + std::to_string(i + 1) + " of the network is not larger than the one before it",
+                     to_text((*sites)[i + 1]) + " after " + to_text((*sites)[i])};
+    }
   return gordon_surface(
       network, KnotVector<K>::bezier(static_cast<int>(network.u.size()) - 1, network.u.front(), network.u.back()),
       KnotVector<K>::bezier(static_cast<int>(network.v.size()) - 1, network.v.front(), network.v.back()));
@@ -136,10 +145,12 @@ Result<TransfiniteMap<T, 2, N, K>> gordon_surface(const CurveNetwork<T, N, K>& n
 
 template <ExactField T, std::size_t N, ExactField K>
 bool contains_network(const TransfiniteMap<T, 2, N, K>& surface, const CurveNetwork<T, N, K>& network) {
-  for (std::size_t j = 0; j < network.v.size(); ++j)
-    if (!identical(fix(surface, 1, network.v[j]), network.along_u[j])) return false;
-  for (std::size_t i = 0; i < network.u.size(); ++i)
-    if (!identical(fix(surface, 0, network.u[i]), network.along_v[i])) return false;
+  for (const Side side : {Side::left, Side::right}) {
+    for (std::size_t j = 0; j < network.v.size(); ++j)
+      if (!identical(fix(surface, 1, network.v[j], side), network.along_u[j])) return false;
+    for (std::size_t i = 0; i < network.u.size(); ++i)
+      if (!identical(fix(surface, 0, network.u[i], side), network.along_v[i])) return false;
+  }
   return true;
 }
 

@@ -86,7 +86,7 @@ requires(M >= 2) Smoothness<T, M - 1> closing_smoothness_rational(const BsplineC
 
 namespace detail {
 
-// The Taylor coefficients of A and W at one parameter, from one side; both lists have the same length.
+// The first Taylor coefficients of A and W at one parameter, from one side; both lists have the same length.
 template <Ring T, std::size_t N>
 struct TaylorQuotient {
   std::vector<Vec<T, N>> a;
@@ -94,10 +94,10 @@ struct TaylorQuotient {
 };
 
 template <ExactField T, std::size_t N, OrderedField K>
-std::vector<Vec<T, N>> taylor(const BsplineCurve<T, N, K>& curve, const K& t, Side side) {
-  std::vector<Vec<T, N>> out = derivatives(curve, t, curve.degree(), side);
+std::vector<Vec<T, N>> taylor(const BsplineCurve<T, N, K>& curve, const K& t, Side side, int order) {
+  std::vector<Vec<T, N>> out = derivatives(curve, t, order, side);
   T inverse_factorial(1);
-  for (int k = 2; k <= curve.degree(); ++k) {
+  for (int k = 2; k <= order; ++k) {
     inverse_factorial = inverse_factorial / T(k);
     out[k] = inverse_factorial * out[k];
   }
@@ -154,12 +154,14 @@ bool same_direction(const Vec<T, N>& a, const Vec<T, N>& b) {
   return *scalar_traits<T>::sign(along) == Sign::positive;
 }
 
+// What the coefficients up to some order say; nothing when more of them are needed.
 template <ExactField T, std::size_t N>
-Smoothness<T, N> meet(const TaylorQuotient<T, N>& left, const TaylorQuotient<T, N>& right) {
+std::optional<Smoothness<T, N>> meet(const TaylorQuotient<T, N>& left, const TaylorQuotient<T, N>& right,
+                                     bool complete) {
   Smoothness<T, N> out{kOneFunction, {}, false, false};
-  const int p = static_cast<int>(left.w.size()) - 1;
+  const int order = static_cast<int>(left.w.size()) - 1;
   T factorial(1);
-  for (int k = 0; k <= 2 * p; ++k) {
+  for (int k = 0; k <= (complete ? 2 * order : order); ++k) {
     if (k > 0) factorial = T(k) * factorial;
     const Vec<T, N> d = cross_coefficient(left, right, k);
     if (is_zero_point(d)) continue;
@@ -169,11 +171,20 @@ Smoothness<T, N> meet(const TaylorQuotient<T, N>& left, const TaylorQuotient<T, 
   }
   const auto [left_order, left_derivative] = first_derivative_not_zero(left);
   const auto [right_order, right_derivative] = first_derivative_not_zero(right);
+  if (!complete && (out.order == kOneFunction || left_order == 0 || right_order == 0)) return std::nullopt;
   out.has_zero_speed = left_order != 1 || right_order != 1;
   // Before the break x is negative: the k-th derivative points backwards for even k.
   out.has_tangent = out.order >= 0 && left_order > 0 && right_order > 0 &&
                     same_direction(left_order % 2 == 1 ? left_derivative : -left_derivative, right_derivative);
   return out;
+}
+
+// Low orders decide nearly always, and are cheap where numbers are long: meet_up_to(order, complete) is asked for more and
+// more until it answers.
+template <class MeetUpTo>
+auto meet_lazily(int degree, MeetUpTo meet_up_to) {
+  for (int order = std::min(degree, 3);; order = std::min(degree, 2 * order))
+    if (auto out = meet_up_to(order, order == degree)) return *out;
 }
 
 // Runs at(t) for each inner break.
@@ -197,11 +208,17 @@ void require_inside(const KnotVector<K>& knots, const K& t) {
 // The curve coming in at `from` and leaving at `to`.
 template <ExactField T, std::size_t N, OrderedField K>
 Smoothness<T, N> meet_polynomial(const BsplineCurve<T, N, K>& curve, const K& from, const K& to) {
-  return meet(as_polynomial(taylor(curve, from, Side::left)), as_polynomial(taylor(curve, to, Side::right)));
+  return meet_lazily(curve.degree(), [&](int order, bool complete) {
+    return meet(as_polynomial(taylor(curve, from, Side::left, order)),
+                as_polynomial(taylor(curve, to, Side::right, order)), complete);
+  });
 }
 template <ExactField T, std::size_t M, OrderedField K>
 Smoothness<T, M - 1> meet_rational(const BsplineCurve<T, M, K>& curve, const K& from, const K& to) {
-  return meet(as_quotient(taylor(curve, from, Side::left)), as_quotient(taylor(curve, to, Side::right)));
+  return meet_lazily(curve.degree(), [&](int order, bool complete) {
+    return meet(as_quotient(taylor(curve, from, Side::left, order)), as_quotient(taylor(curve, to, Side::right, order)),
+                complete);
+  });
 }
 
 }  // namespace detail
