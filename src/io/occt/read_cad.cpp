@@ -23,6 +23,7 @@
 #include "converted.h"
 #include "load.h"
 #include "patchproof/io/cad.h"
+#include "rehearsal.h"
 #include "silence.h"
 #include "splines.h"
 
@@ -191,6 +192,12 @@ class Reader {
       }
     }
     if (out.uses.empty()) return finish(CadEdgeKind::unusable, "no face uses it");
+    const auto same_range = [&](const CadUse& use) {
+      const KnotVector<Rational>&k = use.parameters.knots(), &first = out.uses.front().parameters.knots();
+      return k.domain_begin() == first.domain_begin() && k.domain_end() == first.domain_end();
+    };
+    if (!std::all_of(out.uses.begin(), out.uses.end(), same_range))
+      return finish(CadEdgeKind::unusable, "its parameter curves run over different ranges");
     finish(out.uses.size() == 1  ? CadEdgeKind::free
            : out.uses.size() > 2 ? CadEdgeKind::non_manifold
            : indices.size() == 1 ? CadEdgeKind::seam
@@ -208,16 +215,15 @@ class Reader {
 
 }  // namespace
 
-Result<Converted> read_converted(const std::string& path, UnusableFaces unusable) {
-  const Result<std::string> bytes = load_file(path);
-  if (!bytes) return bytes.error();
-  if (bytes->empty()) return Error{ErrorCode::empty_input, path, "the file is empty", ""};
+namespace {
+
+Result<Converted> read_here(const std::string& path, const std::string& sha256, const std::string& format,
+                            UnusableFaces unusable) {
   Converted out;
   CadModel& model = out.model;
   model.path = path;
-  model.sha256 = sha256_of(*bytes);
-  model.format = format_of(*bytes);
-  const Silence silence;
+  model.sha256 = sha256;
+  model.format = format;
   const auto failed = [&](const char* what) {
     return Error{ErrorCode::syntax, path, std::string("Open CASCADE failed ") + what, ""};
   };
@@ -230,9 +236,9 @@ Result<Converted> read_converted(const std::string& path, UnusableFaces unusable
     return failed("to read the file");
   }
   model.units = loaded.units;
+  model.left_out = std::move(loaded.missing);
+  if (const auto error = refused(model, unusable)) return *error;
   try {
-    model.left_out = std::move(loaded.missing);
-    if (const auto error = refused(model, unusable)) return *error;
     if (!loaded.shape.IsNull())
       if (const auto error = Reader(out, loaded).read(unusable)) return *error;
   } catch (const Standard_Failure&) {
@@ -240,10 +246,27 @@ Result<Converted> read_converted(const std::string& path, UnusableFaces unusable
   }
   if (!model.faces.empty()) return out;
   if (model.left_out.empty()) return Error{ErrorCode::wrong_count, path, "the file holds no face", ""};
+  const LeftOutFace& first = model.left_out.front();
   return Error{ErrorCode::wrong_count, path,
-               "no face of the file is usable, for example " + model.left_out.front().label + ": " +
-                   model.left_out.front().reason,
-               ""};
+               "no face of the file is usable, for example " + first.label + ": " + first.reason, ""};
+}
+
+}  // namespace
+
+Result<Converted> read_converted(const std::string& path, UnusableFaces unusable) {
+  const Result<std::string> bytes = load_file(path);
+  if (!bytes) return bytes.error();
+  if (bytes->empty()) return Error{ErrorCode::empty_input, path, "the file is empty", ""};
+  const std::string format = format_of(*bytes);
+  const Silence silence;
+  const auto megabytes = static_cast<unsigned>(bytes->size() >> 20);
+  const auto gave_up = [&](const char* what) { return Error{ErrorCode::syntax, path, what, ""}; };
+  switch (rehearse([&] { (void)read_here(path, "", format, unusable); }, 20 + 60 * megabytes)) {
+    case Rehearsal::crashed: return gave_up("the file is damaged: Open CASCADE breaks down on it");
+    case Rehearsal::too_long: return gave_up("the file is damaged: Open CASCADE does not come to an end with it");
+    case Rehearsal::fine: break;
+  }
+  return read_here(path, sha256_of(*bytes), format, unusable);
 }
 
 }  // namespace patchproof::occt
