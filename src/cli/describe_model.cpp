@@ -11,7 +11,7 @@
 #include "cli/patch_smoothness.h"
 #include "patchproof/patch/denominator.h"
 #include "patchproof/patch/transfinite_expand.h"
-#include "patchproof/spline/curve_denominator.h"
+#include "patchproof/spline/spline_domain.h"
 
 namespace patchproof::cli {
 namespace {
@@ -156,22 +156,6 @@ BreakRow row_of(const BreakSmoothness<T, 3, T>& b, int dimension) {
   return row;
 }
 
-template <ExactField T>
-std::string denominator_text(const CurveDenominatorVerdict<T>& verdict) {
-  switch (verdict.sign) {
-    case CurveDenominatorSign::positive: return "w > 0 everywhere";
-    case CurveDenominatorSign::negative: return "w < 0 everywhere";
-    case CurveDenominatorSign::one_sign_per_piece: return "w without zero, of one sign on each component";
-    case CurveDenominatorSign::vanishes: break;
-  }
-  std::vector<std::string> zeros;
-  for (const auto& z : verdict.zeros)
-    zeros.push_back(z.is_exact()   ? brief(z.begin)
-                    : z.everywhere ? fmt::format("on [{}, {}]", brief(z.begin), brief(z.end))
-                                   : fmt::format("near {}", brief(z.begin)));
-  return "w vanishes at " + abbreviated(zeros, ", ");
-}
-
 const char* denominator_text(DenominatorSign sign) {
   switch (sign) {
     case DenominatorSign::positive: return "w > 0 everywhere";
@@ -192,14 +176,26 @@ std::string seam_text(const BsplineCurve<T, 4>& curve) {
                                       : " with a corner");
 }
 
+// Readers have certified that w has no zero: on each component it has the sign that it has at the begin.
+template <ExactField T>
+std::string sign_text(const BsplineCurve<T, 4>& curve) {
+  bool positive = true, negative = true;
+  for (const DomainComponent<T>& part : components(curve.knots())) {
+    const bool above = T(0) < evaluate(curve, part.begin)[3];
+    positive = positive && above;
+    negative = negative && !above;
+  }
+  return positive   ? "w > 0 everywhere"
+         : negative ? "w < 0 everywhere"
+                    : "w without zero, of one sign on each component";
+}
+
 template <ExactField T>
 std::string describe_curve(std::size_t index, const ModelCurve<T>& c) {
-  const CurveDenominatorVerdict<T> denominator = certify_denominator(c.curve);
-  std::string text = fmt::format("curve {}{}: {}, {}", index, quoted(c.name), c.dimension == 2 ? "plane" : "space",
-                                 c.is_rational ? "rational, " + denominator_text(denominator) : "polynomial");
-  text += denominator.is_nonzero() ? ", " + seam_text(c.curve) + "\n" : "\n";
+  std::string text =
+      fmt::format("curve {}{}: {}, {}, {}\n", index, quoted(c.name), c.dimension == 2 ? "plane" : "space",
+                  c.is_rational ? "rational, " + sign_text(c.curve) : "polynomial", seam_text(c.curve));
   text += knot_lines(c.curve.knots(), "control point", "  ", "  ");
-  if (!denominator.is_nonzero()) return text;
   std::vector<BreakRow> rows;
   for (const auto& b : smoothness_rational(c.curve)) rows.push_back(row_of(b, c.dimension));
   return text + table(rows, "  ");
@@ -224,15 +220,20 @@ std::string describe_patch(std::size_t index, const ModelPatch<T>& p) {
   return text;
 }
 
+// A solid of a file: its control patches are described as patches of the model.
 template <ExactField T>
-std::string describe_solid(std::size_t index, const ModelSolid<T>& s) {
-  std::string text = fmt::format("solid {}{}\n", index, quoted(s.name));
-  for (std::size_t d = 0; d < 3; ++d) {
-    const KnotVector<T> knots = spline_knots(s.map, d);
-    text += fmt::format("  {}: degree {}, domain [{}, {}], {}\n", "uvw"[d], knots.degree(), brief(knots.domain_begin()),
-                        brief(knots.domain_end()), plural(knots.breaks().size() - 1, "span"));
+std::string describe_solid(std::size_t index, const ModelSolid<T>& s, const Model<T>& model) {
+  bool rational = false;
+  std::vector<std::string> controls;
+  for (const auto& control : s.controls) {
+    rational = rational || (control.patch >= 0 && model.patches[control.patch].is_rational);
+    controls.push_back(control.patch >= 0 ? fmt::format("patch {}", control.patch) : std::string("a point"));
   }
-  return text;
+  std::string text = fmt::format("solid {}{}: {}, controls {}\n", index, quoted(s.name),
+                                 rational ? "rational, w > 0 everywhere" : "polynomial", fmt::join(controls, ", "));
+  for (std::size_t d = 0; d < 2; ++d)
+    text += knot_lines(spline_knots(s.map, d), "layer", fmt::format("  {}: ", "uv"[d]), "     ");
+  return text + (s.knots ? knot_lines(*s.knots, "control", "  w: ", "     ") : std::string());
 }
 
 template <ExactField T>
@@ -240,7 +241,7 @@ std::string describe_all(const Model<T>& model) {
   std::string text;
   for (std::size_t i = 0; i < model.curves.size(); ++i) text += describe_curve(i, model.curves[i]);
   for (std::size_t i = 0; i < model.patches.size(); ++i) text += describe_patch(i, model.patches[i]);
-  for (std::size_t i = 0; i < model.solids.size(); ++i) text += describe_solid(i, model.solids[i]);
+  for (std::size_t i = 0; i < model.solids.size(); ++i) text += describe_solid(i, model.solids[i], model);
   if (!model.joins.empty()) text += plural(model.joins.size(), "join") + " declared in the file\n";
   return text;
 }

@@ -56,6 +56,22 @@ FourSides<T, N> four_sides(const Construction<T>& construction, const std::strin
   return {side("v_min", 0), side("v_max", 0), side("u_min", 1), side("u_max", 1)};
 }
 
+// Is the expansion to a spline on these knots too much work?
+template <ExactField T>
+std::optional<Error> check_size(const Construction<T>& construction, const KnotVector<T>& u, const KnotVector<T>& v) {
+  double curves = 0;
+  for (const auto& [key, list] : construction.curves) curves += static_cast<double>(list.size());
+  const double points = (u.degree() + 1.0) * (v.degree() + 1.0);
+  const double boxes = static_cast<double>(u.breaks().size() - 1) * static_cast<double>(v.breaks().size() - 1);
+  if (boxes * points * points * curves <= kMaxExpansion) return std::nullopt;
+  return Error{ErrorCode::unsupported, "",
+               fmt::format("the expanded patch would be too large: spans x control points of each, squared, x curves "
+                           "may be {:.0g}",
+                           kMaxExpansion),
+               fmt::format("{} x {} spans of degree ({}, {}), {} curves", u.breaks().size() - 1, v.breaks().size() - 1,
+                           u.degree(), v.degree(), curves)};
+}
+
 // The map's own error, or the B-spline that it is.
 template <ExactField T, std::size_t N>
 Result<ExpandedConstruction<T>> expanded(const Construction<T>& construction, const Result<Map<T, N>>& map,
@@ -67,14 +83,7 @@ Result<ExpandedConstruction<T>> expanded(const Construction<T>& construction, co
       return Error{ErrorCode::bad_degree, "",
                    fmt::format("the expanded patch would have a degree above {}", kMaxDegree),
                    fmt::format("{}", knots->degree())};
-  long long curves = 0;
-  for (const auto& [key, list] : construction.curves) curves += static_cast<long long>(list.size());
-  const double points = (u.degree() + 1.0) * (v.degree() + 1.0);
-  const double boxes = static_cast<double>(u.breaks().size() - 1) * static_cast<double>(v.breaks().size() - 1);
-  if (boxes * points * points * static_cast<double>(curves) > static_cast<double>(kMaxExpansion))
-    return Error{ErrorCode::unsupported, "", "the expanded patch would be too large",
-                 fmt::format("{} x {} spans of degree ({}, {}), {} curves", u.breaks().size() - 1,
-                             v.breaks().size() - 1, u.degree(), v.degree(), curves)};
+  if (auto error = check_size(construction, u, v)) return *error;
   if constexpr (N == 4)
     return ExpandedConstruction<T>{to_bspline_patch(*map), is_rational, std::move(kind)};
   else
@@ -123,6 +132,32 @@ Result<ExpandedConstruction<T>> expand_gordon(const Construction<T>& constructio
   if (most > kMaxDegree + 1)  // before a system of so many equations is solved
     return Error{ErrorCode::bad_degree, "", fmt::format("the expanded patch would have a degree above {}", kMaxDegree),
                  fmt::format("{} curves", most)};
+  // What the surface has at least, before anything is solved or blended.
+  for (const auto& [parameters, curves_here] :
+       {std::pair(&construction.parameters.at("u"), &along_v), std::pair(&construction.parameters.at("v"), &along_u)}) {
+    double digits = 0;
+    for (const T& x : *parameters) digits = std::max(digits, static_cast<double>(to_text(x).size()));
+    if (const double n = static_cast<double>(curves_here->size()); n * n * n * n * digits > kMaxSystem)
+      return Error{ErrorCode::unsupported, "", "the blending functions of the Gordon surface would be too much work",
+                   fmt::format("{} curves at parameters of up to {} digits", curves_here->size(), digits)};
+  }
+  const auto knots_at_least = [](const Controls<T>& along, std::size_t sites) {
+    const KnotVector<T>* most = nullptr;
+    for (const ControlCurve<T>& c : along)
+      if (!c.is_point && (!most || c.curve.curve.knots().breaks().size() > most->breaks().size()))
+        most = &c.curve.curve.knots();
+    int degree = static_cast<int>(sites) - 1;
+    for (const ControlCurve<T>& c : along) degree = std::max(degree, c.is_point ? 0 : c.curve.curve.degree());
+    degree = std::max(degree, 1);
+    std::vector<T> knots(degree + 1, T(0));
+    const std::size_t spans = most ? most->breaks().size() - 1 : 1;
+    for (std::size_t k = 1; k < spans; ++k) knots.push_back(T(static_cast<int>(k)));
+    knots.insert(knots.end(), degree + 1, T(static_cast<int>(spans)));
+    return KnotVector<T>::make_unchecked(degree, std::move(knots));
+  };
+  if (auto error =
+          check_size(construction, knots_at_least(along_u, along_v.size()), knots_at_least(along_v, along_u.size())))
+    return *error;
   const CurveNetwork<T, 3> network{construction.parameters.at("u"), construction.parameters.at("v"),
                                    curve_maps<3>(along_u, 0), curve_maps<3>(along_v, 1)};
   return expanded(construction, gordon_surface(network), false,

@@ -31,7 +31,10 @@ struct ExpandedConstruction {
 };
 
 // A limit of the work: boxes between knots, times the square of the control points of each, times curves.
-inline constexpr long long kMaxExpansion = 4'000'000;
+inline constexpr double kMaxExpansion = 12e6;
+// And of the equations that give a Gordon surface its blending functions: curves along one direction to the fourth, times the
+// digits of a parameter.
+inline constexpr double kMaxSystem = 4e6;
 
 // T: Rational or Quadratic.
 // ERRORS  those of coons_patch.h, transfinite.h and gordon_surface.h;  wrong_count: some of the four derivatives across;

@@ -8,6 +8,7 @@
 
 #include "patchproof/patch/denominator.h"
 #include "patchproof/spline/curve_denominator.h"
+#include "patchproof/spline/spline_domain.h"
 
 namespace patchproof {
 namespace {
@@ -235,6 +236,26 @@ bool ModelBuilder<T>::denominator_is_fine(const WeightPlace& place, const Bsplin
 
 template <ExactField T>
 bool ModelBuilder<T>::denominator_is_fine(const WeightPlace& place, const BsplineCurve<T, 4>& curve) {
+  // Isolating roots asks for greatest common divisors, whose coefficients grow with the degree: where weights are long the
+  // bounded search for patches decides, or refuses.
+  constexpr std::size_t kMaxWork = 1'500'000;
+  std::size_t digits = 0;
+  for (const Vec<T, 4>& p : curve.points()) digits += to_text(p[3]).size();
+  const std::size_t degree = curve.degree();
+  if (degree * degree * digits > kMaxWork) {
+    DenominatorLimits limits;
+    limits.averages =
+        static_cast<long>(std::max<std::size_t>(1000, 40'000'000 / (digits / curve.points().size() + 40)));
+    const auto verdict =
+        certify_denominator(BsplinePatch<T, 4>(curve.knots(), KnotVector<T>::bezier(0), curve.points()), limits);
+    return verdict.is_nonzero() ||
+           fail(ErrorCode::vanishing_weight, place.at,
+                verdict.sign == DenominatorSign::vanishes
+                    ? "the weights make the denominator of the curve zero inside its domain"
+                    : "a zero of the denominator of the curve inside its domain could not be excluded",
+                fmt::format("t in [{}, {}]", to_text(verdict.where.u_begin), to_text(verdict.where.u_end)),
+                place.pointer);
+  }
   std::string where;
   for (const DenominatorZero<T>& zero : certify_denominator(curve).zeros) {
     if (!where.empty()) where += ", ";
@@ -330,6 +351,9 @@ std::optional<ModelPatch<T>> ModelBuilder<T>::patch(const RawConstruction& raw) 
     }
   if (made->is_rational && !denominator_is_fine({"patch", raw.at, raw.pointer}, made->surface)) return std::nullopt;
   const BsplinePatch<T, 4>& surface = made->surface;
+  if (exact->blending)
+    for (const int control : dead_control_points(*exact->blending))
+      this->notes.push_back(fmt::format("patch {}: control {} has no influence", model_.patches.size(), control));
   this->notes.push_back(fmt::format("patch {}: {}, expanded exactly to degree ({}, {})", model_.patches.size(),
                                     made->kind, surface.degree(Direction::u), surface.degree(Direction::v)));
   return ModelPatch<T>{raw.name, surface, any_weight(surface.net())};

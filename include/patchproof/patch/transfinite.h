@@ -39,6 +39,7 @@
 
 #include "patchproof/error.h"
 #include "patchproof/patch/bspline_patch.h"
+#include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/scalar/power_series.h"
 #include "patchproof/spline/bspline_basis.h"
 #include "patchproof/spline/curve.h"
@@ -203,7 +204,8 @@ Result<TransfiniteMap<T, D, N, K>> TransfiniteMap<T, D, N, K>::blend(std::size_t
       return Error{ErrorCode::domains_differ, "",
                    "control " + std::to_string(i) + " has another domain in parameter " + std::to_string(*s + 1) +
                        " than those before it",
-                   ""};
+                   to_text(controls[i].domain_begin(*s)) + " … " + to_text(controls[i].domain_end(*s)) + " after " +
+                       to_text(domains[*s]->first) + " … " + to_text(domains[*s]->second)};
   return TransfiniteMap(
       Node{typename Node::Blend{coordinate, std::move(knots), std::move(controls)}, std::move(domains)});
 }

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "patchproof/error.h"
+#include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/spline/bspline_basis.h"
 #include "patchproof/spline/knot_vector.h"
 
@@ -42,7 +43,8 @@ Result<std::vector<std::vector<K>>> cardinal_controls(const KnotVector<K>& knots
   std::vector<std::vector<K>> rows;
   for (std::size_t k = 0; k < n; ++k) {
     if (!knots.in_domain(sites[k]))
-      return Error{ErrorCode::outside_domain, "", "site " + std::to_string(k) + " lies outside the domain", ""};
+      return Error{ErrorCode::outside_domain, "", "site " + std::to_string(k) + " lies outside the domain",
+                   to_text(sites[k])};
     rows.push_back(basis(knots, sites[k]));
     rows[k].resize(2 * n, K(0));
     rows[k][n + k] = K(1);

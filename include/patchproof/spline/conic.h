@@ -67,7 +67,7 @@ ConicArc<T, M> complementary_arc(const ConicArc<T, M>& arc) {
 }
 
 // From y² to z² on the unit circle; turns by twice the angle from y to z, which lies between −π and π.
-// REQUIRES y and z not zero.
+// REQUIRES y and z not zero. Opposite ones (z = −λ y, λ > 0) give an arc with a pole: its middle weight is negative.
 template <Ring T>
 ConicArc<T, 3> unit_circle_arc(const Vec<T, 2>& y, const Vec<T, 2>& z) {
   const T yy = y[0] * y[0] + y[1] * y[1], yz = y[0] * z[0] + y[1] * z[1], zz = z[0] * z[0] + z[1] * z[1];
