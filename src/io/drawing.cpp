@@ -229,6 +229,8 @@ Result<BasisDrawing> graphs(const std::string& title, const KnotVector<T>& knots
   }
   const int p = knots.degree();
   out.functions.resize(knots.control_count());
+  for (int i = 0; i < knots.control_count(); ++i)
+    out.functions[i].support = fmt::format("[{}, {}]", label_of(knots[i]), label_of(knots[i + p + 1]));
   for (const auto& samples : sample_spans(knots, cells)) {
     std::vector<int> spans;
     std::vector<std::vector<double>> live;  // the p + 1 functions of the span, at each sample
@@ -287,9 +289,16 @@ Result<Chosen> chosen(const Model<T>& model, const PlotOptions& options) {
     for (std::size_t i = 0; all && i < count; ++i) indices.push_back(static_cast<int>(i));
     return std::nullopt;
   };
+  const auto is_control = [&](int patch) {
+    return std::any_of(model.solids.begin(), model.solids.end(), [&](const ModelSolid<T>& solid) {
+      return std::any_of(solid.controls.begin(), solid.controls.end(),
+                         [&](const auto& control) { return control.patch == patch; });
+    });
+  };
   if (auto error = choose(out.curves, model.curves.size(), options.curve, "curve", "curves")) return *error;
   if (auto error = choose(out.patches, model.patches.size(), options.patch, "patch", "patches")) return *error;
   if (auto error = choose(out.solids, model.solids.size(), options.solid, "solid", "solids")) return *error;
+  if (all && !options.basis) std::erase_if(out.patches, is_control);
   return out;
 }
 

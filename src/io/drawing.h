@@ -56,7 +56,8 @@ struct BasisDrawing {
     std::string label;
   };
   struct Function {
-    std::vector<std::vector<std::array<double, 2>>> components;  // (place of t, value)
+    std::vector<std::vector<std::array<double, 2>>> components;  // (place of t, value); none: no support
+    std::string support;                                         // "[0, 2]"
   };
   std::string title;
   int degree = 0;
@@ -82,7 +83,8 @@ Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOp
 std::string svg_scene(const Drawing& drawing, const PlotOptions& options);
 std::string svg_basis(const std::vector<BasisDrawing>& panels, const PlotOptions& options);
 
-// The indices of the curves, patches and solids that the options choose: the given ones, or all.
+// The indices of the curves, patches and solids that the options choose: the given ones, or all but the patches that are
+// controls of solids (with `basis` those, too).
 struct Chosen {
   std::vector<int> curves, patches, solids;
 };

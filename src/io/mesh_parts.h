@@ -14,7 +14,11 @@ namespace patchproof {
 // The name on one line of valid UTF-8.
 std::string printable(const std::string& name);
 
-// The part as lines or surfaces: a solid's boundary, without the vertices and normals inside.
+// Whether the signed volumes of the cells sum to less than 0. The map of a solid may turn space inside out: its cells, and
+// with them their facets, are then written the other way round. Never so for lines and surfaces.
+bool is_inside_out(const CellComplex<double, 3>& mesh);
+
+// The part as lines or surfaces: a solid's boundary turned outwards, without the vertices and normals inside.
 MeshPart visible(const MeshPart& part);
 
 // The same with triangles for quadrangles.

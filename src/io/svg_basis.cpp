@@ -14,6 +14,7 @@ namespace {
 constexpr double kLeft = 48, kRight = kPageWidth - 24, kGraph = 170;  // the graph's height
 constexpr int kMostDots = 6;
 constexpr std::size_t kMostReserved = 100;  // functions; among more, names may cross lines
+constexpr std::size_t kMostListed = 40;     // functions in the legend
 
 class Panel {
  public:
@@ -27,7 +28,8 @@ class Panel {
     group_ = add(page, "g", {{"class", "basis"}});
   }
 
-  void draw() {
+  // Returns where the next panel may begin.
+  double draw() {
     const std::string functions = basis_.is_rational ? "rational basis R" : "B-spline basis N";
     add_text(group_, {24, top_ - 26},
              shortened(fmt::format("{} of degree {}: {}", functions, basis_.degree, basis_.title), 13, kPageWidth - 48),
@@ -41,17 +43,23 @@ class Panel {
           for (std::size_t k = 1; k < line.size(); ++k)
             labels.reserve(place(line[k - 1][0], line[k - 1][1]), place(line[k][0], line[k][1]), 1.5);
     for (std::size_t i = 0; i < basis_.functions.size(); ++i) lines(i);
-    for (std::size_t i = 0; i < basis_.functions.size(); ++i) name(labels, i);
     knots();
-  }
-
-  static double height(const BasisDrawing& basis) {
-    int dots = 1;
-    for (const auto& knot : basis.knots) dots = std::max(dots, std::min(knot.multiplicity, kMostDots));
-    return 42 + kGraph + 12 + 6 * dots + 34;
+    double bottom = top_ + kGraph + 12 + 6 * most_dots() + 34;
+    const Legend nameless = legend(names(labels));
+    if (!nameless.empty()) {
+      nameless.draw(group_, bottom - 8);
+      bottom += nameless.height() + 4;
+    }
+    return bottom;
   }
 
  private:
+  int most_dots() const {
+    int dots = 1;
+    for (const auto& knot : basis_.knots) dots = std::max(dots, std::min(knot.multiplicity, kMostDots));
+    return dots;
+  }
+
   PagePoint place(double t, double value) const {
     return {kLeft + t * (kRight - kLeft), top_ + (high_ - value) / (high_ - low_) * kGraph};
   }
@@ -92,19 +100,48 @@ class Panel {
     }
   }
 
-  // Above the largest value.
-  void name(Labels& labels, std::size_t i) {
-    std::array<double, 2> best{};
-    bool any = false;
-    for (const auto& line : basis_.functions[i].components)
-      for (const auto& point : line)
-        if (!any || point[1] > best[1]) {
-          best = point;
-          any = true;
-        }
-    if (!any) return;
-    labels.put_near(place(best[0], best[1]), 6, fmt::format("{}{}", basis_.is_rational ? "R" : "N", subscript(i)), 12,
-                    line_colour(i));
+  std::string name(std::size_t i) const { return (basis_.is_rational ? "R" : "N") + subscript(i); }
+
+  // Names beside the lines: all at their largest values first, then the others along their lines, the higher the better.
+  // Returns those for which there was no room.
+  std::vector<std::size_t> names(Labels& labels) const {
+    std::vector<std::size_t> left, nameless;
+    const auto points_of = [&](std::size_t i) {
+      std::vector<std::array<double, 2>> points;
+      for (const auto& line : basis_.functions[i].components) points.insert(points.end(), line.begin(), line.end());
+      std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a[1] > b[1]; });
+      return points;
+    };
+    const auto put = [&](std::size_t i, const std::array<double, 2>& at) {
+      return labels.put_near(place(at[0], at[1]), 6, name(i), 12, line_colour(i));
+    };
+    for (std::size_t i = 0; i < basis_.functions.size(); ++i) {
+      const auto points = points_of(i);
+      if (points.empty() || !put(i, points[0])) left.push_back(i);
+    }
+    for (const std::size_t i : left) {
+      const auto points = points_of(i);
+      const std::size_t step = 1 + points.size() / 48;
+      bool is_named = false;
+      for (std::size_t k = step; k < points.size() && !is_named && points[k][1] > 0.15 * points[0][1]; k += step)
+        is_named = put(i, points[k]);
+      if (!is_named) nameless.push_back(i);
+    }
+    return nameless;
+  }
+
+  Legend legend(const std::vector<std::size_t>& nameless) const {
+    Legend out;
+    for (std::size_t k = 0; k < nameless.size() && k < kMostListed; ++k) {
+      const std::size_t i = nameless[k];
+      const auto& f = basis_.functions[i];
+      out.add_line(f.components.empty() ? name(i) + " = 0" : fmt::format("{} on {}", name(i), f.support),
+                   line_colour(i), "1.8");
+    }
+    if (nameless.size() > kMostListed)
+      out.add(fmt::format("and {} more; they are numbered in the order of their knots", nameless.size() - kMostListed),
+              [](auto...) {});
+    return out;
   }
 
   static std::string subscript(std::size_t i) {
@@ -118,9 +155,7 @@ class Panel {
     pugi::xml_node ticks = add(group_, "g", {{"stroke", kInk}, {"stroke-width", "1.2"}}),
                    dots = add(group_, "g", {{"fill", kAccent}, {"class", "multiplicities"}});
     Labels labels(group_, 4, axis, kPageWidth - 4, axis + 100);
-    int most = 1;
-    for (const auto& knot : basis_.knots) most = std::max(most, std::min(knot.multiplicity, kMostDots));
-    const double baseline = axis + 12 + 6 * most + 14;
+    const double baseline = axis + 12 + 6 * most_dots() + 14;
     const auto label = [&](const BasisDrawing::Knot& knot) {
       std::string text = knot.label;
       if (knot.multiplicity > kMostDots) text += fmt::format(" ×{}", knot.multiplicity);
@@ -145,14 +180,10 @@ class Panel {
 }  // namespace
 
 std::string svg_basis(const std::vector<BasisDrawing>& panels, const PlotOptions& options) {
-  double height = Page::top(options.title, "");
-  for (const BasisDrawing& basis : panels) height += Panel::height(basis);
-  Page page(height, options.title, "");
   double top = Page::top(options.title, "");
-  for (const BasisDrawing& basis : panels) {
-    Panel(page.root(), basis, top).draw();
-    top += Panel::height(basis);
-  }
+  Page page(top, options.title, "");
+  for (const BasisDrawing& basis : panels) top = Panel(page.root(), basis, top).draw();
+  page.set_height(top);  // known only now: a legend may be needed
   return page.text();
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <locale>
 #include <sstream>
@@ -13,9 +14,25 @@
 namespace patchproof {
 namespace {
 
-// Characters, not bytes.
-std::size_t length_of(const std::string& utf8) {
-  return std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xc0) != 0x80; });
+// The characters of a text in UTF-8.
+std::vector<std::string> characters(const std::string& utf8) {
+  std::vector<std::string> out;
+  for (const char c : utf8) {
+    if ((c & 0xc0) != 0x80 || out.empty()) out.emplace_back();
+    out.back() += c;
+  }
+  return out;
+}
+
+// How wide a character is when its size is 1, in the wider ones of the usual fonts.
+double character_width(const std::string& c) {
+  if (c.size() == 1) {
+    if (std::string(" ijlI.,:;'|!()[]frt").find(c) != std::string::npos) return 0.38;
+    if (std::string("mwMW@%").find(c) != std::string::npos) return 0.95;
+    return std::isupper(static_cast<unsigned char>(c[0])) != 0 ? 0.7 : 0.63;
+  }
+  if (c >= "\u2080" && c <= "\u2089") return 0.42;  // subscripts
+  return c.size() == 2 ? 0.75 : 1;
 }
 
 }  // namespace
@@ -41,7 +58,11 @@ pugi::xml_node add(pugi::xml_node parent, const char* element, const Attributes&
   return node;
 }
 
-double text_width(const std::string& text, double size) { return 0.56 * size * static_cast<double>(length_of(text)); }
+double text_width(const std::string& text, double size) {
+  double width = 0;
+  for (const std::string& c : characters(text)) width += size * character_width(c);
+  return width;
+}
 
 pugi::xml_node add_text(pugi::xml_node parent, const PagePoint& p, const std::string& text, double size,
                         const std::string& colour, Anchor anchor) {
@@ -55,12 +76,15 @@ pugi::xml_node add_text(pugi::xml_node parent, const PagePoint& p, const std::st
 
 std::string shortened(const std::string& text, double size, double width) {
   if (text_width(text, size) <= width) return text;
-  std::string out = text;
-  while (!out.empty() && text_width(out, size) > width - size) {
-    while (!out.empty() && (out.back() & 0xc0) == 0x80) out.pop_back();
-    if (!out.empty()) out.pop_back();
+  const std::vector<std::string> all = characters(text);
+  std::string begin, end;
+  double left = width - text_width("…", size);
+  for (std::size_t k = 0; k < all.size(); ++k) {  // one of the begin, one of the end, …
+    const std::string& c = k % 2 == 0 ? all[k / 2] : all[all.size() - 1 - k / 2];
+    if ((left -= size * character_width(c)) < 0) break;
+    k % 2 == 0 ? begin += c : end = c + end;
   }
-  return out + "…";
+  return begin + "…" + end;
 }
 
 const std::string& line_colour(std::size_t index) {
@@ -119,13 +143,17 @@ void Legend::add(const std::string& text, Sign sign) {
   next_ += width;
 }
 
-void Legend::add_line(const std::string& text, const std::string& colour, const char* width, const char* dashes) {
+void Legend::add_line(const std::string& text, const std::string& colour, const char* width,
+                      const std::string& dashes) {
   add(text, [=](pugi::xml_node group, double left, double middle) {
     pugi::xml_node path = patchproof::add(group, "path",
                                           {{"d", command('M', {{left, middle}}) + command('L', {{left + 20, middle}})},
                                            {"stroke", colour},
                                            {"stroke-width", width}});
-    if (dashes[0] != 0) path.append_attribute("stroke-dasharray") = dashes;
+    if (!dashes.empty()) {
+      path.append_attribute("stroke-dasharray") = dashes.c_str();
+      path.append_attribute("stroke-linecap") = "butt";
+    }
   });
 }
 
@@ -158,6 +186,11 @@ Page::Page(double height, const std::string& title, const std::string& subtitle)
   }
   if (!subtitle.empty())
     add_text(root_, {24, title.empty() ? 28.0 : 53.0}, shortened(subtitle, 13, kPageWidth - 48), 13, kInk);
+}
+
+void Page::set_height(double height) {
+  root_.attribute("height") = page_number(height).c_str();
+  root_.attribute("viewBox") = fmt::format("0 0 {} {}", page_number(kPageWidth), page_number(height)).c_str();
 }
 
 std::string Page::text() const {

@@ -63,7 +63,8 @@ class Legend {
 
   void add(const std::string& text, Sign sign);
   // A line of this colour.
-  void add_line(const std::string& text, const std::string& colour, const char* width, const char* dashes = "");
+  void add_line(const std::string& text, const std::string& colour, const char* width, const std::string& dashes = "");
+  bool empty() const { return entries_.empty(); }
   double height() const { return 18 * static_cast<double>(rows_); }
   void draw(pugi::xml_node root, double top) const;
 
@@ -79,14 +80,14 @@ class Legend {
   double next_ = 24;
 };
 
-// How wide a text is, about: no font can be asked.
+// How wide a text is, about and rather too much: no font can be asked.
 double text_width(const std::string& text, double size);
 
 // `text` in one line, or several lines not wider than `width`.
 pugi::xml_node add_text(pugi::xml_node parent, const PagePoint& p, const std::string& text, double size,
                         const std::string& colour, Anchor anchor = Anchor::begin);
 
-// Shortened with "…" to that width.
+// Shortened to that width, with "…" in its middle: names often differ in their ends.
 std::string shortened(const std::string& text, double size, double width);
 
 inline constexpr double kPageWidth = 760;
@@ -98,6 +99,7 @@ class Page {
  public:
   Page(double height, const std::string& title, const std::string& subtitle);
   pugi::xml_node root() { return root_; }
+  void set_height(double height);
   std::string text() const;
 
   // Where drawing may begin below the title.

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "io/drawing.h"
+#include "io/svg_facets.h"
+#include "io/svg_layers.h"
 #include "io/svg_page.h"
 #include "io/svg_view.h"
 #include "patchproof/spline/bernstein.h"
@@ -14,9 +16,8 @@ namespace patchproof {
 namespace {
 
 constexpr double kMargin = 44;
-constexpr int kIsolines = 4;              // at most so many intervals between isoparametric lines in each span
 constexpr std::size_t kMostNamed = 10;    // curves in the legend
-constexpr std::size_t kMostLabels = 300;  // knots are labelled in pictures of one or two curves with few of them
+constexpr std::size_t kMostLabels = 300;  // knots: none is labelled when there are more
 
 class Scene {
  public:
@@ -32,16 +33,19 @@ class Scene {
     const double used = view_.fit(left, kPageWidth - left - kMargin, top);
     const double bottom = top + used + 14;
     const double legend_top = bottom + (plane_ ? 30 : 6);
+    std::vector<std::vector<Polyline>> on_page;
+    for (const CurveDrawing& curve : drawing_.curves) on_page.push_back(polylines(curve));
+    dashes_ = dashes_of(on_page);
     const Legend legend = this->legend();
     Page page(legend_top + legend.height() + 12, title_, subtitle_);
     pugi::xml_node root = page.root();
     if (plane_) axes(root, left - 14, kPageWidth - kMargin + 14, top - 14, bottom);
-    patches(root);
-    for (const PatchDrawing& patch : drawing_.patches) net(root, patch);
+    draw_facets(root, drawing_.patches, view_);
+    for (const PatchDrawing& patch : drawing_.patches) draw_net(root, patch, view_);
     pugi::xml_node under = add(root, "g", {{"class", "control"}}), over = add(root, "g", {{"class", "curves"}});
     Labels labels(add(root, "g", {{"class", "labels"}}), 4, top - 16, kPageWidth - 4, bottom + 2);
-    for (const CurveDrawing& curve : drawing_.curves)
-      if (has_labels()) reserve(labels, curve);
+    for (std::size_t i = 0; i < drawing_.curves.size() && has_labels(); ++i)
+      reserve(labels, drawing_.curves[i], on_page[i]);
     for (std::size_t i = 0; i < drawing_.curves.size(); ++i) {
       if (show_polygons_) polygon(under, drawing_.curves[i].controls);
       paths(over, drawing_.curves[i], i);
@@ -64,6 +68,11 @@ class Scene {
     return true;
   }
 
+  // A long name leaves room for what is said of it.
+  static std::string titled(const std::string& name, const std::string& what) {
+    return shortened(name, 13, kPageWidth - 48 - text_width(": " + what, 13)) + ": " + what;
+  }
+
   void describe() {
     const std::size_t curves = drawing_.curves.size(), patches = drawing_.patches.size();
     if (curves == 1 && patches == 0) {
@@ -71,16 +80,16 @@ class Scene {
       std::size_t spans = 0;
       for (const auto& component : c.components) spans += component.segments.size();
       subtitle_ =
-          fmt::format("{}: {}degree {}, {} control points, {} span{}", c.name, c.is_rational ? "rational, " : "",
-                      c.degree, c.controls.size(), spans, spans == 1 ? "" : "s");
+          titled(c.name, fmt::format("{}degree {}, {} control points, {} span{}", c.is_rational ? "rational, " : "",
+                                     c.degree, c.controls.size(), spans, spans == 1 ? "" : "s"));
       return;
     }
     if (patches == 1 && curves == 0) {
       const PatchDrawing& p = drawing_.patches[0];
-      subtitle_ =
-          p.is_solid ? p.name
-                     : fmt::format("{}: {}degree {} × {}, {} × {} control points", p.name,
-                                   p.is_rational ? "rational, " : "", p.degree[0], p.degree[1], p.count[0], p.count[1]);
+      subtitle_ = p.is_solid ? p.name
+                             : titled(p.name, fmt::format("{}degree {} × {}, {} × {} control points",
+                                                          p.is_rational ? "rational, " : "", p.degree[0], p.degree[1],
+                                                          p.count[0], p.count[1]));
       return;
     }
     const std::size_t solids = std::count_if(drawing_.patches.begin(), drawing_.patches.end(),
@@ -164,21 +173,30 @@ class Scene {
     std::size_t marks = 0;
     for (const CurveDrawing& curve : drawing_.curves)
       for (const auto& component : curve.components) marks += component.marks.size();
-    return drawing_.curves.size() <= 2 && marks <= kMostLabels;
+    return marks <= kMostLabels;
   }
 
-  // No label on a curve or on a control point.
-  void reserve(Labels& labels, const CurveDrawing& curve) const {
-    for (const auto& component : curve.components)
+  // One for each component.
+  std::vector<Polyline> polylines(const CurveDrawing& curve) const {
+    std::vector<Polyline> out;
+    for (const auto& component : curve.components) {
+      out.emplace_back();
       for (std::size_t s = 0; s < component.segments.size(); ++s) {
         std::vector<Point3> line = component.segments[s];
         if (component.exact[s]) {
           line.clear();
           for (int k = 0; k <= 16; ++k) line.push_back(de_casteljau(component.segments[s], k / 16.0));
         }
-        for (std::size_t k = 1; k < line.size(); ++k)
-          labels.reserve(view_.place(line[k - 1]), view_.place(line[k]), 2.5);
+        for (const Point3& p : line) out.back().push_back(view_.place(p));
       }
+    }
+    return out;
+  }
+
+  // No label on a curve or on a control point.
+  void reserve(Labels& labels, const CurveDrawing& curve, const std::vector<Polyline>& lines) const {
+    for (const auto& line : lines)
+      for (std::size_t k = 1; k < line.size(); ++k) labels.reserve(line[k - 1], line[k], 2.5);
     if (!show_polygons_) return;
     for (const DrawnControl& c : curve.controls)
       if (!c.is_vector) labels.reserve(view_.place(c.at), 5);
@@ -217,14 +235,22 @@ class Scene {
   }
 
   void paths(pugi::xml_node parent, const CurveDrawing& curve, std::size_t index) const {
-    for (const auto& component : curve.components) {
+    for (std::size_t c = 0; c < curve.components.size(); ++c) {
+      const auto& component = curve.components[c];
       std::string d = command('M', {view_.place(component.segments[0][0])});
       for (std::size_t s = 0; s < component.segments.size(); ++s) {
         const std::vector<PagePoint> rest = places(component.segments[s], 1);
         const char letter = !component.exact[s] || rest.size() == 1 ? 'L' : rest.size() == 2 ? 'Q' : 'C';
         d += command(letter, rest);
       }
-      add(parent, "path", {{"class", "curve"}, {"d", d}, {"stroke", line_colour(index)}, {"stroke-width", "2.4"}});
+      pugi::xml_node path =
+          add(parent, "path", {{"class", "curve"}, {"d", d}, {"stroke", line_colour(index)}, {"stroke-width", "2.4"}});
+      const std::vector<double>& dashes = dashes_[index][c];
+      if (dashes.empty()) continue;
+      std::string lengths;
+      for (const double length : dashes) lengths += (lengths.empty() ? "" : " ") + page_number(length);
+      path.append_attribute("stroke-dasharray") = lengths.c_str();
+      path.append_attribute("stroke-linecap") = "butt";  // round ends would fill the gaps
     }
   }
 
@@ -246,85 +272,6 @@ class Scene {
         }
         if (has_labels()) labels.put_near(p, 9, mark.label, 11, line_colour(index));
       }
-  }
-
-  // ---- patches --------------------------------------------------------------------------------------------------------
-
-  struct Facet {
-    double depth;
-    std::string path, colour;
-    std::string strong, faint;  // its edges that are lines of the knots, and other isoparametric lines
-  };
-
-  void patches(pugi::xml_node root) const {
-    std::vector<Facet> facets;
-    for (const PatchDrawing& patch : drawing_.patches)
-      for (const auto& piece : patch.pieces) collect(facets, patch, piece);
-    std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.depth < b.depth; });
-    if (facets.empty()) return;
-    pugi::xml_node group = add(root, "g", {{"class", "patches"}, {"stroke-width", "0.6"}});
-    for (const Facet& f : facets) {
-      // The stroke of the fill's colour hides the seams between neighbours.
-      add(group, "path", {{"class", "facet"}, {"d", f.path}, {"fill", f.colour}, {"stroke", f.colour}});
-      if (!f.faint.empty()) add(group, "path", {{"d", f.faint}, {"stroke", "#33506e"}, {"opacity", "0.4"}});
-      if (!f.strong.empty()) add(group, "path", {{"d", f.strong}, {"stroke", "#1f3247"}, {"stroke-width", "1.1"}});
-    }
-  }
-
-  void collect(std::vector<Facet>& facets, const PatchDrawing& patch, const Tessellation<2>& piece) const {
-    const auto& mesh = piece.mesh;
-    std::size_t columns = 1;  // vertices along u
-    while (columns < piece.parameters.size() && piece.parameters[columns][1] == piece.parameters[0][1] &&
-           piece.parameters[columns][0] != piece.parameters[0][0])
-      ++columns;
-    const auto step = [](int cells) {
-      int intervals = std::min(kIsolines, cells);
-      while (cells % intervals != 0) --intervals;
-      return cells / intervals;
-    };
-    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-      const auto v = mesh.cell(c);
-      const std::array<Point3, 4> p{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[3]], mesh.vertices[v[2]]};
-      Facet f;
-      f.depth = view_.depth(0.25 * (p[0] + p[1] + p[2] + p[3]));
-      const double light = view_.brightness(cross(p[2] - p[0], p[3] - p[1]));
-      f.path = command('M', {view_.place(p[0])}) +
-               command('L', {view_.place(p[1]), view_.place(p[2]), view_.place(p[3])}) + "Z";
-      f.colour = shade(light);
-      const int i = static_cast<int>(c % (columns - 1)), j = static_cast<int>(c / (columns - 1));
-      const std::array<std::array<int, 4>, 4> edges{{{0, 1, 1, j}, {3, 2, 1, j + 1}, {0, 3, 0, i}, {1, 2, 0, i + 1}}};
-      for (const auto& [a, b, direction, line] : edges) {
-        const std::string edge = command('M', {view_.place(p[a])}) + command('L', {view_.place(p[b])});
-        if (line % patch.cells[direction] == 0)
-          f.strong += edge;
-        else if (line % step(patch.cells[direction]) == 0)
-          f.faint += edge;
-      }
-      facets.push_back(std::move(f));
-    }
-  }
-
-  static std::string shade(double light) {
-    const double s = std::round((0.12 + 0.88 * light) * 48) / 48;
-    const auto mix = [&](int dark, int bright) { return static_cast<int>(std::lround(dark + s * (bright - dark))); };
-    return fmt::format("#{:02x}{:02x}{:02x}", mix(58, 214), mix(84, 228), mix(114, 242));
-  }
-
-  void net(pugi::xml_node root, const PatchDrawing& patch) const {
-    if (patch.controls.empty()) return;
-    pugi::xml_node group = add(root, "g", {{"class", "net"}, {"stroke", kAccent}, {"stroke-width", "0.9"}});
-    const auto at = [&](int i, int j) -> const DrawnControl& { return patch.controls[i * patch.count[1] + j]; };
-    std::string lines;
-    for (int i = 0; i < patch.count[0]; ++i)
-      for (int j = 0; j < patch.count[1]; ++j) {
-        if (at(i, j).is_vector) continue;
-        const PagePoint p = view_.place(at(i, j).at);
-        for (const auto& [k, l] : {std::array{i + 1, j}, std::array{i, j + 1}})
-          if (k < patch.count[0] && l < patch.count[1] && !at(k, l).is_vector)
-            lines += command('M', {p}) + command('L', {view_.place(at(k, l).at)});
-        add(group, "circle", {{"cx", page_number(p.x)}, {"cy", page_number(p.y)}, {"r", "2.2"}, {"fill", kAccent}});
-      }
-    if (!lines.empty()) add(group, "path", {{"d", lines}, {"opacity", "0.8"}});
   }
 
   // ---- what the signs mean --------------------------------------------------------------------------------------------
@@ -350,7 +297,12 @@ class Scene {
       out.add("control vector, weight 0", [](pugi::xml_node group, double left, double middle) {
         arrow(group, {left, middle}, {left + 20, middle});
       });
-    if (!drawing_.patches.empty()) out.add_line("knot lines", "#4a6a8c", "1.3");
+    const auto& patches = drawing_.patches;
+    if (!patches.empty())
+      out.add_line(std::any_of(patches.begin(), patches.end(), has_inner_knots) ? "edges and knot lines" : "edges",
+                   "#4a6a8c", "1.3");
+    if (std::any_of(patches.begin(), patches.end(), [](const auto& p) { return std::max(p.cells[0], p.cells[1]) > 1; }))
+      out.add_line("parameter lines", "#4a6a8c", "0.6");
     if (std::any_of(drawing_.patches.begin(), drawing_.patches.end(),
                     [](const auto& p) { return !p.controls.empty(); }))
       out.add_line("control net", kAccent, "0.9");
@@ -375,6 +327,7 @@ class Scene {
   bool show_polygons_, plane_;
   View view_;
   std::string title_, subtitle_;
+  std::vector<std::vector<std::vector<double>>> dashes_;  // of the curves: svg_layers.h
 };
 
 }  // namespace

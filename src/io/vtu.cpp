@@ -23,9 +23,11 @@ int cell_type(const CellComplex<double, 3>& mesh) {
 }
 
 // VTK goes round the bottom of a hexahedron, then round its top.
-std::vector<int> corners_of(const CellComplex<double, 3>& mesh, std::size_t c) {
-  if (mesh.dimension < 3 || mesh.kind == CellKind::simplex) return polygon(mesh, c);
+std::vector<int> corners_of(const CellComplex<double, 3>& mesh, std::size_t c, bool is_mirrored) {
+  if (mesh.dimension < 3) return polygon(mesh, c);
   const auto v = mesh.cell(c);
+  if (mesh.kind == CellKind::simplex) return {v[0], v[1], v[is_mirrored ? 3 : 2], v[is_mirrored ? 2 : 3]};
+  if (is_mirrored) return {v[4], v[5], v[7], v[6], v[0], v[1], v[3], v[2]};
   return {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
 }
 
@@ -108,8 +110,9 @@ class Grid {
     array(node, "Int64", "connectivity", 1, [&](auto& out) {
       std::size_t first = 0;
       for (const MeshPart& part : parts_) {
+        const bool is_mirrored = is_inside_out(part.mesh);
         for (std::size_t c = 0; c < part.mesh.cell_count(); ++c) {
-          for (const int v : corners_of(part.mesh, c)) put(out, "{} ", first + v);
+          for (const int v : corners_of(part.mesh, c, is_mirrored)) put(out, "{} ", first + v);
           put(out, "\n");
         }
         first += part.mesh.vertices.size();

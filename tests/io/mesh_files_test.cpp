@@ -151,6 +151,21 @@ double enclosed(const std::vector<std::array<Point, 3>>& triangles) {
   return sum;
 }
 
+// Whether each edge is run through once from one end and once from the other.
+bool is_closed(const std::vector<std::array<Point, 3>>& triangles) {
+  std::map<std::array<std::array<double, 3>, 2>, int> uses;
+  for (const auto& t : triangles)
+    for (int k : {0, 1, 2}) ++uses[{t[k].c, t[(k + 1) % 3].c}];
+  for (const auto& [edge, count] : uses)
+    if (count != 1 || !uses.contains({edge[1], edge[0]})) return false;
+  return true;
+}
+
+MeshPart mirrored(MeshPart part) {
+  for (Point& p : part.mesh.vertices) p = {{p[0], p[2], p[1]}};
+  return part;
+}
+
 // ---- laws -----------------------------------------------------------------------------------------------------------
 
 TEST(MeshFiles, Law1_Obj) {
@@ -180,6 +195,54 @@ TEST(MeshFiles, Law1_SolidsAreOrientedOutwards) {
     for (const auto& [n, a, b, c] : read_stl(write_stl({solid(kind)}).value())) triangles.push_back({a, b, c});
     EXPECT_NEAR(enclosed(triangles), 1, 1e-6);
   }
+}
+
+// A map may turn space inside out: the boundary still looks outwards and is closed, the cells have a positive volume.
+TEST(MeshFiles, Law1_MirroredSolidsAreOrientedOutwards) {
+  for (const CellKind kind : {CellKind::cuboid, CellKind::simplex})
+    for (const bool far : {false, true}) {
+      MeshPart part = mirrored(solid(kind));
+      // At a distance, and of a size, whose cube no double holds.
+      if (far)
+        for (Point& p : part.mesh.vertices) p = std::ldexp(1, 400) * (p + Point{{1e6, -1e6, 1e6}});
+      const double scale = far ? std::ldexp(1, 400) : 1;
+      const auto scaled = [&](Point p) { return (1 / scale) * p - (far ? Point{{1e6, -1e6, 1e6}} : Point{}); };
+      std::vector<std::array<Point, 3>> triangles;
+      const Obj obj = read_obj(write_obj({part}).value());
+      for (const auto& f : obj.faces)
+        for (std::size_t k = 2; k < f.size(); ++k)
+          triangles.push_back(
+              {scaled(obj.points[f[0][0] - 1]), scaled(obj.points[f[k - 1][0] - 1]), scaled(obj.points[f[k][0] - 1])});
+      EXPECT_NEAR(enclosed(triangles), 1, 1e-6);
+      EXPECT_TRUE(is_closed(triangles));
+      const pugi::xml_document document = read_xml(write_vtu({part}).value());
+      const pugi::xml_node piece = document.child("VTKFile").child("UnstructuredGrid").child("Piece");
+      const auto place = numbers(piece.child("Points"), "Points"),
+                 corners = numbers(piece.child("Cells"), "connectivity");
+      const int n = kind == CellKind::cuboid ? 8 : 4;
+      for (std::size_t first = 0; first < corners.size(); first += n) {
+        const auto at = [&](int k) {
+          const std::size_t p = 3 * static_cast<std::size_t>(corners[first + k]);
+          return scaled({{place[p], place[p + 1], place[p + 2]}});
+        };
+        EXPECT_GT(dot(cross(at(1) - at(0), at(n == 8 ? 3 : 2) - at(0)), at(n == 8 ? 4 : 3) - at(0)), 0);
+      }
+      if (far) continue;
+      triangles.clear();
+      for (const auto& [normal, a, b, c] : read_stl(write_stl({part}).value())) triangles.push_back({a, b, c});
+      EXPECT_NEAR(enclosed(triangles), 1, 1e-6);
+      const Glb glb = read_glb(write_glb({part}).value());
+      triangles.clear();
+      const auto offset = [&](int view) { return glb.json["bufferViews"][view]["byteOffset"].get<std::size_t>(); };
+      for (std::size_t k = 0; k < glb.json["accessors"][1]["count"].get<std::size_t>(); ++k) {
+        const auto v = number_at<std::uint32_t>(glb.data, offset(1) + 4 * k);
+        Point p;
+        for (std::size_t i : {0, 1, 2}) p[i] = number_at<float>(glb.data, offset(0) + 12 * v + 4 * i);
+        if (k % 3 == 0) triangles.emplace_back();
+        triangles.back()[k % 3] = p;
+      }
+      EXPECT_NEAR(enclosed(triangles), 1, 1e-6);
+    }
 }
 
 TEST(MeshFiles, Law1And4_Stl) {

@@ -8,7 +8,8 @@
 //   glb    glTF 2.0 in one file: lines and triangles in single precision, one node for each part, turned so that z points up
 //
 // ENSURES  (1) the file holds the cells of the parts, in order: quadrangles as polygons (STL, glb: as two triangles each),
-//              facets of a solid's boundary oriented outwards;  (2) the same parts give the same bytes, in any locale;
+//              facets of a solid's boundary oriented outwards, a solid whose cells have a negative volume altogether
+//              mirrored;  (2) the same parts give the same bytes, in any locale;
 //          (3) normals appear only where there are some: for a corner in OBJ when all corners of its polygon have one, for a
 //              part in glb and for the file in VTU when all vertices have one;  (4) STL leaves out triangles of which two
 //              corners are the same in single precision.

@@ -14,11 +14,14 @@
 //              degree ≤ 3 is one command with its Bézier points, to 1/100 of a page unit;
 //          (2) all coordinates of the picture lie within its viewBox;  (3) the same model and options give the same bytes;
 //          (4) basis: one line for each function and component, for each distinct knot vector drawn;
-//          (5) a mesh file holds the curves, patches and solids of the model in order, one part for each component.
+//          (5) a mesh file holds the curves, patches and solids of the model in order, one part for each component; unless one
+//              is asked for, patches that are controls of a solid are left out of pictures of the geometry and of mesh files;
+//          (6) basis: every function is named, beside its line or, with its support, below the panel;
+//          (7) where a curve runs along an earlier one it is dashed, so that both are seen.
 // ERRORS   bad_reference: no such curve or patch;  usage: nothing to draw, or a picture with too many cells;
 //          what tessellate and mesh_files.h say.
 // NEIGHBOURS mesh_files.h, read.h.
-// TEST     tests/io/plot_test.cpp checks (1)–(5).
+// TEST     tests/io/plot_test.cpp checks (1)–(5), plot_solids_test.cpp (5), plot_legibility_test.cpp (2), (6), (7).
 #pragma once
 
 #include <optional>
