@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "patchproof/scalar/parse_scalar.h"
 #include "raw_spline.h"
@@ -173,9 +174,13 @@ class ObjReader {
     spline.count = {1, 1};
     for (int d = 0; d < spline.directions; ++d)
       if (!direction(element, d, spline)) return false;
+    const std::size_t needed = static_cast<std::size_t>(spline.count[0]) * static_cast<std::size_t>(spline.count[1]);
+    if (element.vertices.size() != needed)
+      return fail(
+          ErrorCode::wrong_count, element.at,
+          fmt::format("degrees and parameters need {} control points, {} are given", needed, element.vertices.size()));
     for (const std::string_view reference : element.vertices)
       if (!control_point(reference, spline)) return false;
-    if (spline.is_curve()) spline.count[0] = static_cast<long>(element.vertices.size());
     error_ = sink_.add(spline);
     return !error_;
   }

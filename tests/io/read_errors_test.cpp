@@ -203,7 +203,7 @@ TEST(ReadErrors, JsonModel) {
       {"other version", "m.json", "{\"format\":\"patchproof-model\",\n\"version\":2}", ErrorCode::unsupported,
        "m.json:2 at /version", "2"},
       {"neither format nor shape", "m.json", "{\"a\":[1,{\"b\":2}]}", ErrorCode::unknown_format, "m.json", ""},
-      {"an array", "m.json", "[1,2]", ErrorCode::syntax, "m.json:1 at /", ""},
+      {"an array", "m.json", "[1,2]", ErrorCode::syntax, "m.json:1 at /0", "1"},
       {"no patches", "m.json", "{\"format\":\"patchproof-model\",\"version\":1,\"patches\":[]}", ErrorCode::wrong_count,
        "m.json:1 at /", ""},
       {"point of two numbers", "m.json", json_patch("[[[0,0],[0,1]],[[1,0],[1,1]]]"), ErrorCode::wrong_count,

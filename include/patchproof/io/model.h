@@ -70,7 +70,7 @@ struct Model {
 // What a reader hands over: the numbers decide whether Q is enough.
 struct ModelFile {
   std::string path;
-  std::string format;  // "patchproof-model", "newell", "bpt", "bez", "g2", "gismo", "geomdl"
+  std::string format;  // "patchproof-model", "newell", "bpt", "bez", "g2", "gismo", "geomdl", "tinyspline", "obj"
   std::string sha256;  // of the bytes read, 64 lower-case hexadecimal digits
   Decimals decimals = Decimals::exact;
   std::variant<Model<Rational>, Model<Quadratic>> model;
