@@ -28,6 +28,7 @@
 #include <XSControl_WorkSession.hxx>
 
 #include <map>
+#include <optional>
 #include <set>
 
 namespace patchproof::occt {
@@ -159,10 +160,38 @@ void find_faults(Loaded& loaded, const XSControl_Reader& reader, IsFace is_face)
   }
 }
 
-Result<Loaded> load_step(const std::string& path) {
+bool is_step_face(const Entity& entity) { return entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface)); }
+
+// Bounded and trimmed surfaces, faces of solids.
+bool is_iges_face(const Entity& entity) {
+  const auto iges = opencascade::handle<IGESData_IGESEntity>::DownCast(entity);
+  const int type = iges.IsNull() ? 0 : iges->TypeNumber();
+  return type == 143 || type == 144 || type == 510;
+}
+
+std::optional<Error> first_unread_face(const std::string& path, const XSControl_Reader& reader,
+                                       bool (*is_face)(const Entity&)) {
+  const Model model = reader.WS()->Model();
+  bool all_read = true;
+  for (int i = 1; i <= model->NbEntities(); ++i) all_read = all_read && !is_unread(model, i);
+  if (all_read) return std::nullopt;
+  const Interface_Graph& graph = reader.WS()->Graph();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Entity entity = model->Value(i);
+    if (!is_face(entity)) continue;
+    if (const Entity unread = unread_part(model, graph, entity); !unread.IsNull())
+      return Error{ErrorCode::syntax, path + " at " + entity_label(model, entity),
+                   "the face is not usable: " + unread_text(model, unread), ""};
+  }
+  return std::nullopt;
+}
+
+Result<Loaded> load_step(const std::string& path, UnusableFaces unusable) {
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     return cannot_read(path, "Open CASCADE cannot read the STEP file");
+  if (unusable == UnusableFaces::refuse)
+    if (const auto error = first_unread_face(path, reader, is_step_face)) return *error;
   Loaded loaded;
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
@@ -172,14 +201,13 @@ Result<Loaded> load_step(const std::string& path) {
   reader.TransferRoots();
   loaded.shape = reader.OneShape();
   if (!loaded.shape.IsNull()) label_by_entity(loaded, reader);
-  find_faults(loaded, reader,
-              [](const Entity& entity) { return entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface)); });
+  find_faults(loaded, reader, is_step_face);
   if (loaded.shape.IsNull() && loaded.missing.empty())
     return cannot_read(path, "the STEP file holds no shape that Open CASCADE can build");
   return loaded;
 }
 
-Result<Loaded> load_iges(const std::string& path) {
+Result<Loaded> load_iges(const std::string& path, UnusableFaces unusable) {
   IGESControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     return cannot_read(path, "Open CASCADE cannot read the IGES file");
@@ -187,17 +215,15 @@ Result<Loaded> load_iges(const std::string& path) {
   loaded.units = "mm";
   const auto model = opencascade::handle<IGESData_IGESModel>::DownCast(reader.WS()->Model());
   if (model.IsNull()) return cannot_read(path, "Open CASCADE cannot read the IGES file");
+  if (unusable == UnusableFaces::refuse)
+    if (const auto error = first_unread_face(path, reader, is_iges_face)) return *error;
   const auto unit = model->GlobalSection().UnitName();
   if (!unit.IsNull() && unit->Length() > 0 && !unit->IsSameString(new TCollection_HAsciiString("MM")))
     loaded.units += std::string(" (file: ") + unit->ToCString() + ")";
   reader.TransferRoots();
   loaded.shape = reader.OneShape();
   if (!loaded.shape.IsNull()) label_by_entity(loaded, reader);
-  find_faults(loaded, reader, [](const Entity& entity) {
-    const auto iges = opencascade::handle<IGESData_IGESEntity>::DownCast(entity);
-    const int type = iges.IsNull() ? 0 : iges->TypeNumber();
-    return type == 143 || type == 144 || type == 510;  // bounded and trimmed surfaces, faces of solids
-  });
+  find_faults(loaded, reader, is_iges_face);
   if (loaded.shape.IsNull() && loaded.missing.empty())
     return cannot_read(path, "the IGES file holds no shape that Open CASCADE can build");
   return loaded;
@@ -223,8 +249,8 @@ std::string format_of(std::string_view bytes) {
 
 std::string plain_label(const char* what, int index) { return std::string(what) + " " + std::to_string(index); }
 
-Result<Loaded> load(const std::string& path, const std::string& format) {
-  return format == "step" ? load_step(path) : format == "brep" ? load_brep(path) : load_iges(path);
+Result<Loaded> load(const std::string& path, const std::string& format, UnusableFaces unusable) {
+  return format == "step" ? load_step(path, unusable) : format == "brep" ? load_brep(path) : load_iges(path, unusable);
 }
 
 }  // namespace patchproof::occt

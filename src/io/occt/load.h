@@ -29,7 +29,8 @@ std::string format_of(std::string_view bytes);
 // "face 7"
 std::string plain_label(const char* what, int index);
 
-// ERRORS syntax.  THROWS Standard_Failure.
-Result<Loaded> load(const std::string& path, const std::string& format);
+// ERRORS syntax; where unusable faces are refused, about the first that cannot be read, before its shape is built: Open
+// CASCADE may not come to an end with it.  THROWS Standard_Failure.
+Result<Loaded> load(const std::string& path, const std::string& format, UnusableFaces unusable);
 
 }  // namespace patchproof::occt

@@ -229,7 +229,7 @@ Result<Converted> read_here(const std::string& path, const std::string& sha256, 
   };
   Loaded loaded;
   try {
-    Result<Loaded> result = load(path, model.format);
+    Result<Loaded> result = load(path, model.format, unusable);
     if (!result) return result.error();
     loaded = std::move(*result);
   } catch (const Standard_Failure&) {
@@ -261,7 +261,7 @@ Result<Converted> read_converted(const std::string& path, UnusableFaces unusable
   const Silence silence;
   const auto megabytes = static_cast<unsigned>(bytes->size() >> 20);
   const auto gave_up = [&](const char* what) { return Error{ErrorCode::syntax, path, what, ""}; };
-  switch (rehearse([&] { (void)read_here(path, "", format, unusable); }, 20 + 60 * megabytes)) {
+  switch (rehearse([&] { (void)read_here(path, "", format, unusable); }, 10 + 60 * megabytes)) {
     case Rehearsal::crashed: return gave_up("the file is damaged: Open CASCADE breaks down on it");
     case Rehearsal::too_long: return gave_up("the file is damaged: Open CASCADE does not come to an end with it");
     case Rehearsal::fine: break;
