@@ -31,7 +31,7 @@ struct ExpandedConstruction {
 };
 
 // A limit of the work: boxes between knots, times the square of the control points of each, times curves.
-inline constexpr double kMaxExpansion = 12e6;
+inline constexpr double kMaxExpansion = 5e6;
 // And of the equations that give a Gordon surface its blending functions: curves along one direction to the fourth, times the
 // digits of a parameter.
 inline constexpr double kMaxSystem = 4e6;

@@ -103,6 +103,12 @@ std::vector<Vec<T, N>> to_bezier(const std::vector<Vec<T, N>>& power) {
   return out;
 }
 
+// join_pieces; a single Bézier piece is what it is.
+template <Ring T, std::size_t N, OrderedField K>
+std::vector<Vec<T, N>> joined_points(const std::vector<BezierPiece<T, N, K>>& pieces, const KnotVector<K>& knots) {
+  return pieces.size() == 1 ? pieces[0].points : join_pieces(pieces, knots).points();
+}
+
 // The map on the box that begins at `begin`, as polynomials of the fractions of the box's sides.
 template <Field T, std::size_t D, std::size_t N, OrderedField K>
 Vec<PowerSeries<T, D>, N> on_unit_box(const TransfiniteMap<T, D, N, K>& map, const std::array<K, D>& begin,
@@ -139,7 +145,7 @@ BsplineCurve<T, N, K> to_bspline_curve(const TransfiniteMap<T, 1, N, K>& map) {
       for (std::size_t c = 0; c < N; ++c) power[k][c] = series[c].coefficient({k});
     pieces.push_back({all[i], all[i + 1], detail::to_bezier(power)});
   }
-  return join_pieces(pieces, knots);
+  return {knots, detail::joined_points(pieces, knots)};
 }
 
 template <Field T, std::size_t N, OrderedField K>
@@ -168,7 +174,7 @@ BsplinePatch<T, N, K> to_bspline_patch(const TransfiniteMap<T, 2, N, K>& map) {
       }
     }
     std::vector<std::vector<Vec<T, N>>> points;
-    for (const auto& column : columns) points.push_back(join_pieces(column, knots_u).points());
+    for (const auto& column : columns) points.push_back(detail::joined_points(column, knots_u));
     for (int row = 0; row < rows; ++row) {
       BezierPiece<T, N, K> piece{vs[j], vs[j + 1], {}};
       for (int b = 0; b <= q; ++b) piece.points.push_back(points[b][row]);
@@ -177,8 +183,8 @@ BsplinePatch<T, N, K> to_bspline_patch(const TransfiniteMap<T, 2, N, K>& map) {
   }
   std::vector<Vec<T, N>> net;
   for (const auto& line : lines) {
-    const BsplineCurve<T, N, K> joined = join_pieces(line, knots_v);
-    net.insert(net.end(), joined.points().begin(), joined.points().end());
+    const std::vector<Vec<T, N>> points = detail::joined_points(line, knots_v);
+    net.insert(net.end(), points.begin(), points.end());
   }
   return {knots_u, knots_v, std::move(net)};
 }
