@@ -6,19 +6,23 @@ here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 program=$1
 out=${2:-$here/pictures}
 mkdir -p "$out"
-curves=() patches=() larger=()
+curves=() patches=() splines=() solids=()
 for model in "$here"/*.json; do
   if grep -q '"curves"' "$model"; then
     curves+=("$model")
-  elif grep -q '"solids"\|"knots"' "$model"; then
-    larger+=("$model")
+  elif grep -q '"solids"' "$model"; then
+    solids+=("$model")
+  elif grep -q '"knots"' "$model"; then
+    splines+=("$model")
   else
     patches+=("$model")
   fi
 done
 "$program" plot "${curves[@]}" "$out" --format svg
 "$program" plot "${patches[@]}" "$out" --format svg --cells 16
-"$program" plot "${larger[@]}" "$out" --format svg --cells 10   # of many spans and faces: files of 150 kB at most
+# The more spans and faces, the fewer cells in each: the files stay below 150 kB.
+"$program" plot "${splines[@]}" "$out" --format svg --cells 12
+"$program" plot "${solids[@]}" "$out" --format svg --cells 10
 for name in bernstein_3 test04 test12 test13; do   # what these are about: their functions
   "$program" plot --basis "$here/$name.json" "$out/${name}_basis.svg"
 done
