@@ -140,14 +140,16 @@ CadModel sharp_part() {
 }
 
 TEST(ReportProfile, Law4_AnglesBetweenFacesAreJudgedOnlyWhereTheProfileLimitsThem) {
-  const auto verdict = [](std::string_view name) {
+  const auto verdict = [](std::string_view name, double smooth_below) {
     CertifyOptions options;
     options.profile = find_profile(name);
     options.request = tolerances_of(*options.profile, "mm", {}).value();
+    options.smooth_below = smooth_below;
     return certify_cad(sharp_part(), options).outcome();
   };
-  EXPECT_EQ(verdict("mil-std-31000a"), Outcome::pass);
-  EXPECT_EQ(verdict("class-a"), Outcome::fail);
+  EXPECT_EQ(verdict("mil-std-31000a", 180), Outcome::pass);
+  EXPECT_EQ(verdict("class-a", 180), Outcome::fail);  // all edges are meant to be smooth
+  EXPECT_EQ(verdict("class-a", 5), Outcome::pass);    // this one is meant to be sharp
 }
 
 }  // namespace
