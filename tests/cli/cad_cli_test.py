@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""cad_cli_test.py PROGRAM SOURCE_DIR: patchproof certify on STEP files: classes of edges, faces left out, damaged files."""
+import json
+import sys
+import unittest
+
+sys.dont_write_bytecode = True  # the sources may be read-only
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
+from command import CUP, EXAMPLES, Command
+
+BLOCK = EXAMPLES / "cad/block.step"
+
+
+class Cad(Command):
+    def report(self, code, *words):
+        return json.loads(self.expect(code, "certify", *words, "--json", "-").stdout)
+
+    def test_the_block_has_smooth_fillets_and_sharp_edges(self):
+        document = self.report(0, BLOCK)
+        self.assertEqual(document["summary"]["edge_classes"], {"smooth": 18, "kinked": 0, "sharp": 34, "mixed": 0, "undecided": 0})
+        self.assertEqual([edge["kind"] for edge in document["other_edges"]], ["degenerate"])
+        self.assertEqual(document["left_out_faces"], [])
+        self.assertEqual(document["input"]["units"], "mm")
+        self.assertTrue(all(join["a"]["name"].startswith("#") and join["a"]["edge"].startswith("#") for join in document["joins"]))
+        text = self.expect(0, "certify", BLOCK).stdout.decode()
+        self.assertIn("34 sharp, 18 smooth", text)
+
+    def test_sharp_edges_are_meant(self):
+        self.expect(0, "certify", BLOCK, "--angle", "0.01", "--gap", "0.001")
+        self.expect(1, "certify", BLOCK, "--angle", "0.01", "--smooth-below", "180")
+        self.expect(1, "certify", BLOCK, "--gap", "0.0001")
+        document = self.report(0, BLOCK, "--smooth-below", "89")
+        self.assertGreater(document["summary"]["edge_classes"]["kinked"], 0)
+        self.assertEqual(document["request"]["smooth_below_degrees"], 89)
+        for words in (["--smooth-below", "nan"], ["--smooth-below", "181"], ["--smooth-below", "-1"]):
+            self.expect(2, "certify", BLOCK, *words)
+
+    def test_the_bytes_do_not_depend_on_the_jobs(self):
+        self.assertEqual(*(self.expect(0, "certify", BLOCK, "--json", "-", "--jobs", n).stdout for n in (1, 4)))
+
+    def test_other_models_have_no_classes(self):
+        document = self.report(0, CUP)
+        self.assertNotIn("edge_class", document["joins"][0])
+        self.assertNotIn("left_out_faces", document)
+
+    def test_faces_that_are_not_usable(self):
+        text = BLOCK.read_text()
+        weights = text.index("RATIONAL_B_SPLINE_SURFACE((")
+        first = text.index("(1.,", weights)
+        bad = self.write("bad.step", text[:first] + "(-1.," + text[first + 4:])
+        message = self.expect_refusal("certify", bad, names=[bad, " at #", "weight that is not positive"])
+        label = message.split(" at ")[1].split(":")[0]
+        document = self.report(0, bad, "--keep-going")
+        self.assertIn(label, [face["face"] for face in document["left_out_faces"]])
+        self.assertGreater(document["summary"]["edge_classes"]["smooth"], 10)
+        self.assertIn("left out: face " + label, self.expect(0, "certify", bad, "--keep-going", "--quiet").stdout.decode())
+        # What was not looked at is no pass.
+        self.expect(3, "certify", bad, "--keep-going", "--gap", "1")
+
+    def test_damaged_files(self):
+        data = BLOCK.read_bytes()
+        for name, text in (("empty.step", b""), ("header.step", b"ISO-10303-21;\n\0\xff\xfe"), ("cut.step", data[:len(data) // 3]),
+                           ("empty.igs", b" " * 72 + b"S0000001\n"), ("head.brep", b"DBRep_DrawableShape\n")):
+            with self.subTest(name):
+                self.expect_refusal("certify", self.write(name, text), names=[name])
+        self.expect_refusal("certify", self.dir, names=[self.dir])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
