@@ -60,16 +60,23 @@ FourSides<T, N> four_sides(const Construction<T>& construction, const std::strin
 template <ExactField T>
 std::optional<Error> check_size(const Construction<T>& construction, const KnotVector<T>& u, const KnotVector<T>& v) {
   double curves = 0;
-  for (const auto& [key, list] : construction.curves) curves += static_cast<double>(list.size());
+  std::size_t digits = 0;
+  for (const auto& [key, list] : construction.curves) {
+    curves += static_cast<double>(list.size());
+    for (const ControlCurve<T>& c : list)
+      for (const Vec<T, 4>& p : c.curve.curve.points())
+        for (const T& x : p.c) digits = std::max(digits, to_text(x).size());
+  }
+  const double length = std::max(1.0, static_cast<double>(digits) / 50);  // of numbers, in those of ordinary files
   const double points = (u.degree() + 1.0) * (v.degree() + 1.0);
   const double boxes = static_cast<double>(u.breaks().size() - 1) * static_cast<double>(v.breaks().size() - 1);
-  if (boxes * points * points * curves <= kMaxExpansion) return std::nullopt;
+  if (boxes * points * points * curves * length <= kMaxExpansion) return std::nullopt;
   return Error{ErrorCode::unsupported, "",
                fmt::format("the expanded patch would be too large: spans x control points of each, squared, x curves "
                            "may be {:.0g}",
                            kMaxExpansion),
-               fmt::format("{} x {} spans of degree ({}, {}), {} curves", u.breaks().size() - 1, v.breaks().size() - 1,
-                           u.degree(), v.degree(), curves)};
+               fmt::format("{} x {} spans of degree ({}, {}), {} curves, numbers of up to {} characters",
+                           u.breaks().size() - 1, v.breaks().size() - 1, u.degree(), v.degree(), curves, digits)};
 }
 
 // The map's own error, or the B-spline that it is.

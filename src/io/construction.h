@@ -30,7 +30,8 @@ struct ExpandedConstruction {
   std::string kind;          // "bilinearly blended Coons patch"
 };
 
-// A limit of the work: boxes between knots, times the square of the control points of each, times curves.
+// A limit of the work: boxes between knots, times the square of the control points of each, times curves,
+// times the length of the longest number where that is long.
 inline constexpr double kMaxExpansion = 5e6;
 // And of the equations that give a Gordon surface its blending functions: curves along one direction to the fourth, times the
 // digits of a parameter.
