@@ -12,19 +12,21 @@ namespace {
 
 using Parameters = Vec<Rational, 2>;
 
-// The parameters at t, held in the domain (where the last digits of a curve leave it).
-Parameters parameters_at(const TrimmedSide& side, const Rational& t) {
-  Parameters at = evaluate_rational(side.parameters, t);
+Parameters parameters_at(const TrimmedSide& side, const Rational& t) { return evaluate_rational(side.parameters, t); }
+
+// Where a parameter curve leaves the domain, the surface's outermost polynomials go on, as in the bounds.
+Vec<Rational, 3> point_at(const TrimmedSide& side, const Parameters& at) {
+  Parameters inside;
+  int spans[2];
   for (const Direction d : {Direction::u, Direction::v}) {
     const KnotVector<Rational>& k = side.surface->knots(d);
-    Rational& x = at[d == Direction::u ? 0 : 1];
-    x = std::clamp(x, k.domain_begin(), k.domain_end());
+    const int i = d == Direction::u ? 0 : 1;
+    inside[i] = std::clamp(at[i], k.domain_begin(), k.domain_end());
+    spans[i] = k.find_span(inside[i]);
   }
-  return at;
-}
-
-Vec<Rational, 3> point_at(const TrimmedSide& side, const Parameters& at) {
-  return evaluate_rational(*side.surface, at[0], at[1]);
+  const Vec<Rational, 4> h = evaluate_in_span<Rational>(*side.surface, spans[0], spans[1], at[0], at[1]);
+  // Only within the domain is the denominator certified.
+  return h[3] == Rational(0) ? evaluate_rational(*side.surface, inside[0], inside[1]) : project(h);
 }
 
 EnclosedMaximum enclosed(const TrimmedJoin& join, const TrimmedBound& bound) {
@@ -36,15 +38,13 @@ EnclosedMaximum enclosed(const TrimmedJoin& join, const TrimmedBound& bound) {
   return out;
 }
 
-// Exact values that refute C0, or nothing: the bound continues surfaces beyond their domains, the witness does not.
-std::optional<Witness> gap_witness(const TrimmedJoin& join, const Rational& t) {
+Witness gap_witness(const TrimmedJoin& join, const Rational& t) {
   const Parameters a = parameters_at(join.a, t), b = parameters_at(join.b, t);
   const Vec<Rational, 3> difference = point_at(join.a, a) - point_at(join.b, b);
-  if (detail::is_zero_point(difference)) return std::nullopt;
-  return Witness{"x - y",
-                 {to_text(a[0]), to_text(a[1])},
-                 {to_text(b[0]), to_text(b[1])},
-                 {to_text(difference[0]), to_text(difference[1]), to_text(difference[2])}};
+  return {"x - y",
+          {to_text(a[0]), to_text(a[1])},
+          {to_text(b[0]), to_text(b[1])},
+          {to_text(difference[0]), to_text(difference[1]), to_text(difference[2])}};
 }
 
 }  // namespace
@@ -67,10 +67,8 @@ Certificate certify_trimmed(const TrimmedJoin& join, const Request& request) {
   out.orientation = out.angle.upper < 90   ? Orientation::smooth
                     : out.angle.lower > 90 ? Orientation::mixed  // somewhere above 90°; a cusp only if everywhere
                                            : Orientation::unknown;
-  std::optional<Witness> witness;
-  if (out.gap.lower > 0) witness = gap_witness(join, bounds.gap.t);
-  if (witness) {
-    out.c0 = {Verdict::refuted, "the edge curves differ", std::move(witness)};
+  if (out.gap.lower > 0) {
+    out.c0 = {Verdict::refuted, "the edge curves differ", gap_witness(join, bounds.gap.t)};
     for (ExactClass* c : {&out.c1, &out.c2, &out.g1}) *c = {Verdict::refuted, "not C0", std::nullopt};
   } else {
     for (ExactClass* c : {&out.c0, &out.c1, &out.c2, &out.g1})
