@@ -2,14 +2,14 @@
 // Solids in our JSON: read, evaluated, written back, and what is wrong with bad ones.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "patchproof/io/read.h"
 #include "patchproof/io/write.h"
 #include "patchproof/patch/transfinite_calculus.h"
 
 namespace patchproof::test {
 namespace {
-
-Rational q(int n, int d = 1) { return Rational(n) / Rational(d); }
 
 std::string model_with(const std::string& solid, const std::string& more = "") {
   return R"({"format": "patchproof-model", "version": 1, "solids": [)" + solid + R"(], "patches": [
@@ -32,16 +32,33 @@ TEST(Solids, APatchAPointAndALiftedPatch) {
   ASSERT_TRUE(file) << file.error().text();
   const ModelSolid<Rational>& s = exact(file).solids.at(0);
   EXPECT_EQ(s.name, "s");
-  const auto t = rational_taylor(s.map, ParameterPlace<Rational, 3>({q(1, 2), q(1, 3), q(1, 4)}), 1);
-  const Rational expected[4][3] = {{q(1), q(7, 12), q(359, 192)},
-                                   {q(5, 12), q(25, 12), q(1, 16)},
-                                   {q(15, 8), q(-35, 16), q(5, 16)},
-                                   {q(0), q(2, 3), q(119, 24)}};
-  for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(t[c].derivative({0, 0, 0}), expected[0][c]);
-    EXPECT_EQ(t[c].derivative({1, 0, 0}), expected[1][c]);
-    EXPECT_EQ(t[c].derivative({0, 1, 0}), expected[2][c]);
-    EXPECT_EQ(t[c].derivative({0, 0, 1}), expected[3][c]);
+  const struct {
+    const char* at;
+    const char* values[4];  // the point, then the derivatives by u, v and w
+  } rows[] = {
+      {"0 0 0", {"0 0 0", "0 3 1", "2 -4 2", "2 2 6"}},
+      {"1/2 1/3 1/4", {"1 7/12 359/192", "5/12 25/12 1/16", "15/8 -35/16 5/16", "0 2/3 119/24"}},
+      {"1 1 1", {"4 0 6", "2 4 0", "4 -3 -1", "6 -2 6"}},
+      {"1/5 4/5 1/2", {"73/50 -18/25 171/50", "4/5 19/10 -3/5", "6/5 -19/10 7/10", "0 0 126/25"}},
+      {"3/4 1/8 1", {"7/16 59/32 201/32", "1/4 25/8 17/8", "7/2 -13/4 -1/4", "-9/8 27/16 105/16"}},
+  };
+  const auto numbers = [](const std::string& text) {
+    std::istringstream in(text);
+    std::array<Rational, 3> out;
+    for (Rational& x : out) {
+      std::string word;
+      in >> word;
+      x = parse_scalar<Rational>(word).value();
+    }
+    return out;
+  };
+  for (const auto& row : rows) {
+    const auto t = rational_taylor(s.map, ParameterPlace<Rational, 3>(numbers(row.at)), 1);
+    for (int k = 0; k < 4; ++k) {
+      std::array<int, 3> alpha{};
+      if (k > 0) alpha[k - 1] = 1;
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(t[c].derivative(alpha), numbers(row.values[k])[c]) << row.at;
+    }
   }
 }
 

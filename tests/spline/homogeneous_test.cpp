@@ -114,6 +114,12 @@ TEST(HomogeneousExact, Law3_FullCircleStaysOnTheCircleInBothForms) {
 
 TEST(HomogeneousExact, PointsAtInfinityAreRefusedInEveryScalar) {
   EXPECT_EQ(evaluate(pole, q(1, 2)), (Homogeneous{{q(0), q(-1, 2), q(0)}}));
+  EXPECT_EQ(rational_derivatives(pole, q(1, 4), 2),
+            (std::vector<Point>{{{q(-1), q(-3, 2)}}, {{q(-8), q(-16)}}, {{q(-64), q(-192)}}}));
+  EXPECT_EQ(rational_derivatives(pole, q(0), 2),
+            (std::vector<Point>{{{q(0), q(0)}}, {{q(-2), q(-2)}}, {{q(-8), q(-12)}}}));
+  EXPECT_EQ(rational_derivatives(pole, q(1), 2),
+            (std::vector<Point>{{{q(2), q(0)}}, {{q(-2), q(2)}}, {{q(8), q(-12)}}}));
   EXPECT_THROW(evaluate_rational(pole, q(1, 2)), contract_error);
   EXPECT_THROW(evaluate_rational(make_curve<Quadratic>(pole), Quadratic(q(1, 2))), contract_error);
   EXPECT_THROW(evaluate_rational(make_curve<Ball>(pole), q(1, 2)), contract_error);
