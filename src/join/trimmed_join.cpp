@@ -136,7 +136,7 @@ class Bounder {
         for (int c = 0; c < 3; ++c)
           for (const Interval& x : {a.point[c].bernstein_range()}) size_ = std::max({size_, x.sup(), -x.inf()});
       }
-    if (pole) piece.angle = at_pole(runs, t, middle, end == end_);
+    if (pole) piece.angle = at_pole(runs, t, middle, at_end);
     out.push_back(std::move(piece));
   }
 
