@@ -148,8 +148,9 @@ class Bounder {
       longest = std::max({longest, rates[c].sup(), -rates[c].inf()});
       own = std::max(own, std::fabs(nearest_double(n[c])));
     }
+    const Interval any(-1.0, 1.0);
+    if (!(own > 0 && longest > 0 && longest / own < kInfinity)) return {{any, any, any}};  // beyond doubles
     Vec<Interval, 3> out = rates;
-    if (!(own > 0 && longest > 0 && longest / own < kInfinity)) return out;
     const Rational scale = from_double(longest / own);
     for (int c = 0; c < 3; ++c) {
       const Interval x = enclose(Rational(scale * n[c]));
