@@ -204,7 +204,7 @@ TEST(ConstructedPatches, BadBlendings) {
   bad([](Json& t) { t["degree"] = 65; }, ErrorCode::bad_degree, "/degree", "65");
   bad([](Json& t) { t["knots"] = {0, 1, 0, 1}; }, ErrorCode::decreasing_knots, "/knots/2", "0 after 1");
   bad([](Json& t) { t["controls"] = Json::array(); }, ErrorCode::wrong_count, "", "0");
-  bad([](Json& t) { t["controls"][1]["knots"] = {0, 0, 2, 2}; }, ErrorCode::domains_differ, "", "");
+  bad([](Json& t) { t["controls"][1]["knots"] = {0, 0, 2, 2}; }, ErrorCode::domains_differ, "", "0 … 2 after 0 … 1");
   bad([](Json& t) { t["controls"][1] = {1, 2, 3, 4}; }, ErrorCode::wrong_count, "/controls/1", "4");
   bad([](Json& t) { t["controls"][1] = "a curve"; }, ErrorCode::syntax, "/controls/1", "a curve");
   // Weights 1 and −1 at the two ends: somewhere between, the blend of them is 0.
@@ -223,8 +223,8 @@ TEST(ConstructedPatches, BadNetworks) {
   };
   EXPECT_TRUE(read_model_text(model_of({{"gordon", network()}}).dump(), "m.json"));
   bad([](Json& g) { g["u"] = {0, "1/2", 1}; }, ErrorCode::wrong_count, "", "2 curves, 3 parameters");
-  bad([](Json& g) { g["u"] = {1, 0}; }, ErrorCode::decreasing_knots, "", "");
-  bad([](Json& g) { g["u"] = Json::array(); }, ErrorCode::decreasing_knots, "", "", "at least two");
+  bad([](Json& g) { g["u"] = {1, 0}; }, ErrorCode::decreasing_knots, "", "0 after 1");
+  bad([](Json& g) { g["u"] = Json::array(); }, ErrorCode::wrong_count, "", "0", "at least two");
   bad([](Json& g) { g["u"] = {0, "one"}; }, ErrorCode::bad_number, "/u/1", "one");
   bad(
       [](Json& g) {
@@ -252,7 +252,7 @@ TEST(ConstructedPatches, SizesThatNobodyMeant) {
     steep["controls"].push_back(curve);
   }
   expect_error({{"transfinite", steep}}, ErrorCode::unsupported, "/transfinite",
-               "1 x 1 spans of degree (64, 40), 41 curves");
+               "1 x 1 spans of degree (64, 40), 41 curves, numbers of up to 2 characters");
   Json dense = network();
   for (int i = 2; i <= 3000; ++i) {
     dense["u"].push_back(i);
