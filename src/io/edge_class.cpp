@@ -33,8 +33,8 @@ EdgeClass edge_class_of(const TrimmedJoin& join, const Certificate& certificate,
                                                            std::chrono::duration<double>(seconds_per_join));
   const RoundingGuard guard;
   const TrimmedBound largest = bound_trimmed(turned, budget).angle;
-  if (180 - largest.upper > smooth_below) return EdgeClass::sharp;
-  return 180 - largest.lower <= smooth_below ? EdgeClass::mixed : EdgeClass::undecided;
+  if ((Interval(180) - Interval(largest.upper)).inf() > smooth_below) return EdgeClass::sharp;
+  return (Interval(180) - Interval(largest.lower)).sup() <= smooth_below ? EdgeClass::mixed : EdgeClass::undecided;
 }
 
 Judgement judge_edge(const Certificate& certificate, EdgeClass edge_class, double smooth_below, Request request) {

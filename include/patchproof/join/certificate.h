@@ -38,7 +38,7 @@ struct ExactClass {
 struct EnclosedMaximum {
   double lower = 0, upper = 0;
   Place at;
-  bool converged = true;  // upper − lower is at most 1 % of upper
+  bool converged = true;  // upper − lower is at most 1 % of upper (trimmed edges: or upper is at the rounding errors)
 };
 
 // On which side of the edge the second patch lies: smooth (it goes on across the edge, normals less than 90° apart

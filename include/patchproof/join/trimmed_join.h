@@ -47,7 +47,7 @@ struct TrimmedJoin {
 struct TrimmedBound {
   double lower = 0, upper = 0;  // gap: model units;  angles: degrees
   Rational t;                   // the witness of `lower`
-  bool converged = true;        // upper − lower ≤ 1 % of upper, or upper below 2⁻³⁶ of the edge's size
+  bool converged = true;  // upper − lower ≤ 1 % of upper, or upper below 2⁻³⁶ of the edge's size, 2⁻³⁴ degrees
 };
 
 struct TrimmedBounds {
