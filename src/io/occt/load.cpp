@@ -31,6 +31,8 @@
 #include <optional>
 #include <set>
 
+#include "entities_of_shapes.h"
+
 namespace patchproof::occt {
 namespace {
 
@@ -48,15 +50,6 @@ std::string entity_label(const Model& model, const Entity& entity) {
   if (item.IsNull() || item->Name().IsNull()) return label;
   const std::string name = item->Name()->ToCString();
   return name.empty() || name == "NONE" ? label : label + " '" + name + "'";
-}
-
-// The entity that a shape came from; null when there is none.
-Entity entity_of(const XSControl_Reader& reader, const TopoDS_Shape& shape) {
-  for (const TopoDS_Shape& candidate : {shape, shape.Located(TopLoc_Location())}) {
-    const Entity entity = reader.WS()->TransferReader()->EntityFromShapeResult(candidate, 1);
-    if (!entity.IsNull() && reader.WS()->Model()->Contains(entity)) return entity;
-  }
-  return nullptr;
 }
 
 // A face that stands in several places of an assembly is as many faces: "#12", "#12 (2)".
@@ -82,9 +75,9 @@ void label_all(Loaded& loaded, LabelOf label_of) {
   number_repeated(loaded.edge_labels);
 }
 
-void label_by_entity(Loaded& loaded, const XSControl_Reader& reader) {
+void label_by_entity(Loaded& loaded, const XSControl_Reader& reader, const EntitiesOfShapes& entities) {
   label_all(loaded, [&](const TopoDS_Shape& shape) {
-    const Entity entity = entity_of(reader, shape);
+    const Entity entity = entities.entity_of(shape);
     return entity.IsNull() ? std::string() : entity_label(reader.WS()->Model(), entity);
   });
 }
@@ -132,7 +125,7 @@ bool has_weight_not_positive(const Entity& face) {
 
 // Which faces of the file are missing in the shape, and which hold numbers that are not in the file.
 template <class IsFace>
-void find_faults(Loaded& loaded, const XSControl_Reader& reader, IsFace is_face) {
+void find_faults(Loaded& loaded, const XSControl_Reader& reader, const EntitiesOfShapes& entities, IsFace is_face) {
   const Model model = reader.WS()->Model();
   bool all_read = true;
   for (int i = 1; i <= model->NbEntities(); ++i) all_read = all_read && !is_unread(model, i);
@@ -154,7 +147,7 @@ void find_faults(Loaded& loaded, const XSControl_Reader& reader, IsFace is_face)
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(loaded.shape, TopAbs_FACE, faces);
   for (int i = 1; i <= faces.Extent(); ++i) {
-    const Entity entity = all_read ? nullptr : entity_of(reader, faces(i));
+    const Entity entity = all_read ? nullptr : entities.entity_of(faces(i));
     const Entity unread = entity.IsNull() ? nullptr : unread_part(model, graph, entity);
     loaded.face_faults.push_back(unread.IsNull() ? "" : unread_text(model, unread));
   }
@@ -200,8 +193,9 @@ Result<Loaded> load_step(const std::string& path, UnusableFaces unusable) {
     loaded.units += std::string(" (file: ") + lengths.First().ToCString() + ")";
   reader.TransferRoots();
   loaded.shape = reader.OneShape();
-  if (!loaded.shape.IsNull()) label_by_entity(loaded, reader);
-  find_faults(loaded, reader, is_step_face);
+  const EntitiesOfShapes entities(reader);
+  if (!loaded.shape.IsNull()) label_by_entity(loaded, reader, entities);
+  find_faults(loaded, reader, entities, is_step_face);
   if (loaded.shape.IsNull() && loaded.missing.empty())
     return cannot_read(path, "the STEP file holds no shape that Open CASCADE can build");
   return loaded;
@@ -222,8 +216,9 @@ Result<Loaded> load_iges(const std::string& path, UnusableFaces unusable) {
     loaded.units += std::string(" (file: ") + unit->ToCString() + ")";
   reader.TransferRoots();
   loaded.shape = reader.OneShape();
-  if (!loaded.shape.IsNull()) label_by_entity(loaded, reader);
-  find_faults(loaded, reader, is_iges_face);
+  const EntitiesOfShapes entities(reader);
+  if (!loaded.shape.IsNull()) label_by_entity(loaded, reader, entities);
+  find_faults(loaded, reader, entities, is_iges_face);
   if (loaded.shape.IsNull() && loaded.missing.empty())
     return cannot_read(path, "the IGES file holds no shape that Open CASCADE can build");
   return loaded;
