@@ -37,7 +37,8 @@ SOURCE = {".h", ".hpp", ".cpp", ".c", ".py", ".cmake"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
 NUMBER_LIBRARY = re.compile(r"^(gmp(xx)?\.h|mpfr\.h|mpfi\w*\.h|boost/.*|CGAL/.*)$")
 OCCT = re.compile(r"\.hxx$")
-OCCT_PLACES = {("src", "io"), ("tests", "io"), ("validation", "peers"), ("validation", "bench"), ("examples", "cad")}
+OCCT_PLACES = {("src", "io"), ("tests", "io"), ("validation", "peers"), ("validation", "bench"),
+               ("validation", "verdicts"), ("examples", "cad")}
 FLOAT = re.compile(r"(?<![\w.])(?:\d[\d']*\.\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+"
                    r"|0[xX][\da-fA-F.]+[pP][+-]?\d+)[fFlL]?(?!\w)")
 EPSILON = re.compile(r"\b\w*(?:epsilon|EPSILON)\w*|\b(?:eps|EPS|kEps)\b")
@@ -127,7 +128,8 @@ class House:
             if NUMBER_LIBRARY.match(name) and room != "scalar" and parts[0] != "src" and parts[:2] != ("tests", "scalar"):
                 self.report("library", path, line, f"{name} belongs to scalar/ and src/ only")
             if OCCT.search(name) and parts[:2] not in OCCT_PLACES:
-                self.report("library", path, line, f"{name} belongs to src/io/, its tests, the peers and examples/cad/")
+                self.report("library", path, line, f"{name} belongs to src/io/, its tests, the peers, the verdicts and "
+                                                   "examples/cad/")
             if name.startswith("kernels/") and parts[0] == "src" and path.name != "evaluate_batch.cpp":
                 self.report("library", path, line, "only evaluate_batch.cpp calls the kernels")
 
