@@ -2,7 +2,6 @@
 #include "edge_class.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace patchproof {
 
@@ -18,7 +17,7 @@ const char* to_string(EdgeClass edge_class) {
 }
 
 EdgeClass edge_class_of(const TrimmedJoin& join, const Certificate& certificate, double smooth_below,
-                        double seconds_per_join) {
+                        DeadlineScope::Clock::time_point deadline) {
   const EnclosedMaximum& angle = certificate.angle;
   const double smooth = std::min(kSmoothDegrees, smooth_below);
   if (angle.upper <= smooth) return EdgeClass::smooth;
@@ -29,8 +28,7 @@ EdgeClass edge_class_of(const TrimmedJoin& join, const Certificate& certificate,
   turned.b.flipped = !turned.b.flipped;
   Budget budget;
   budget.nodes = 200;
-  budget.deadline = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                                           std::chrono::duration<double>(seconds_per_join));
+  budget.deadline = deadline;
   const RoundingGuard guard;
   const TrimmedBound largest = bound_trimmed(turned, budget).angle;
   if ((Interval(180) - Interval(largest.upper)).inf() > smooth_below) return EdgeClass::sharp;

@@ -2,6 +2,7 @@
 // Edges of CAD models: which are smooth, which are meant to be sharp, and what is asked of which.
 #pragma once
 
+#include "patchproof/deadline.h"
 #include "patchproof/io/report.h"
 #include "patchproof/join/trimmed_join.h"
 
@@ -10,7 +11,7 @@ namespace patchproof {
 // The certificate bounds the largest angle along the edge; what an edge above `smooth_below` degrees is depends on its
 // smallest angle, which is bounded here.
 EdgeClass edge_class_of(const TrimmedJoin& join, const Certificate& certificate, double smooth_below,
-                        double seconds_per_join);
+                        DeadlineScope::Clock::time_point deadline);
 
 // Of a sharp edge no tangents are asked: C0 instead of C1 and G1, and no angle. Where it is not decided whether the edge is
 // sharp throughout, what would fail for its angle is undecided.

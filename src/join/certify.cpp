@@ -8,6 +8,7 @@
 #include <atomic>
 
 #include "join/witness.h"
+#include "patchproof/deadline.h"
 #include "patchproof/join/filter.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/scalar/quadratic.h"
@@ -28,35 +29,78 @@ class JoinCertifier {
         witnesses_(join, pieces_),
         request_(request),
         numerical_pairing_(join.pairing.kind == PairingKind::piecewise_linear) {
-    budget_.deadline =
-        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                               std::chrono::duration<double>(std::min(request.seconds_per_join, 1e6)));
     for (const JoinPiece<T>& piece : pieces_) interval_.push_back(join_forms<Interval>(piece));
     fits_ = fits_interval_rung(interval_);
   }
 
   Certificate run() {
-    certificate_.rung = "interval";
+    certificate_ = nothing_known();
+    try {
+      decide_and_bound();
+    } catch (const deadline_passed&) {  // what was decided until then holds
+      say_time_is_up(certificate_);
+      bound_what_is_left();
+    }
+    return std::move(certificate_);
+  }
+
+  // What is known without a look at the join.
+  static Certificate nothing_known() {
+    Certificate out;
+    out.gap = {0, std::numeric_limits<double>::infinity(), {}, false};
+    out.angle = {0, 180, {}, false};
+    out.plane_angle = {0, 90, {}, false};
+    out.rung = "interval";
+    return out;
+  }
+  static void say_time_is_up(Certificate& out) {
+    for (ExactClass* c : {&out.c0, &out.c1, &out.c2, &out.g1})
+      if (c->verdict == Verdict::undecided && c->reason.empty()) c->reason = "the time for one join is up";
+  }
+
+ private:
+  void decide_and_bound() {
     if (fits_ && interval_rung_refutes_c0(interval_)) {
       Budget quick = budget_;
       quick.nodes = kQuickNodes;
       set_gap(bound_gap(interval_, quick));
-      if (!certificate_.gap.converged) set_gap(bound_gap(exact(), budget_));
+      if (!certificate_.gap.converged) bound_gap_exactly();
       decide_without_c0();
     } else if (std::all_of(exact().begin(), exact().end(), [](const JoinForms<R>& f) { return is_c0(f); })) {
       certificate_.c0.verdict = Verdict::proven;
-      certificate_.gap.at = witnesses_.place(0, T(0));
+      certificate_.gap = {0, 0, witnesses_.place(0, T(0)), true};
       decide_smoothness();
-      if (certificate_.g1.verdict == Verdict::proven || orientation_known_) return std::move(certificate_);
+      if (certificate_.g1.verdict == Verdict::proven || orientation_known_) return;
     } else {
-      set_gap(bound_gap(exact(), budget_));
+      bound_gap_exactly();
       decide_without_c0();
     }
     bound_angle();
-    return std::move(certificate_);
   }
 
- private:
+  // Intervals take no time worth speaking of, even where none is left.
+  void bound_what_is_left() {
+    Budget none = budget_;
+    none.nodes = 0;
+    EnclosedMaximum &gap = certificate_.gap, &angle = certificate_.angle, &plane = certificate_.plane_angle;
+    if (gap.upper == std::numeric_limits<double>::infinity()) gap = located(bound_gap(interval_, none));
+    if (numerical_pairing_) gap.lower = 0;
+    if (angle.lower == 0 && angle.upper == 180)
+      angle = located(interval_rung_bound_angle(interval_, Deviation::angle, none));
+    if (angle.upper <= 90)
+      plane = angle;
+    else if (!plane.converged)
+      plane.at = angle.at;
+  }
+
+  // Keeps the bounds that there are, and goes on to the witness, when the time is up.
+  void bound_gap_exactly() {
+    try {
+      set_gap(bound_gap(exact(), budget_));
+    } catch (const deadline_passed&) {  // decide_without_c0 may still find a witness
+    }
+  }
+
   const std::vector<JoinForms<R>>& exact() {
     if (exact_.empty()) {
       certificate_.rung = rung_name(static_cast<const T*>(nullptr));
@@ -162,13 +206,13 @@ class JoinCertifier {
       return;
     }
     certificate_.c1.verdict = Verdict::proven;
-    certificate_.c2.verdict = Verdict::proven;
     for (std::size_t i = 0; i < exact().size(); ++i)
       if (!is_c2(exact()[i])) {
         certificate_.c2 = {Verdict::refuted, "second cross-boundary derivatives differ",
                            witnesses_.find(Quantity::second_derivative, {static_cast<int>(i), T(1) / T(2)})};
         return;
       }
+    certificate_.c2.verdict = Verdict::proven;
   }
 
   void note_degeneracies(char side, const ReducedNormal<R>& normal, const JoinPiece<T>& piece) {
@@ -213,7 +257,7 @@ class JoinCertifier {
       }
     }
     orientation_known_ = true;
-    certificate_.angle.at = certificate_.plane_angle.at = witnesses_.place(0, T(0));
+    certificate_.angle = certificate_.plane_angle = {0, 0, witnesses_.place(0, T(0)), true};
     if (smooth && !cusp) {
       certificate_.g1.verdict = Verdict::proven;
       certificate_.orientation = Orientation::smooth;
@@ -240,6 +284,7 @@ class JoinCertifier {
       certificate_.angle = certificate_.plane_angle = located(bound);
       return;
     }
+    if (fits_) certificate_.angle = located(bound);  // until something better is known
     if (!reduce_normals()) {
       certificate_.angle = {0, 180, witnesses_.place(0, T(0)), false};
       certificate_.plane_angle = {0, 90, witnesses_.place(0, T(0)), false};
@@ -301,7 +346,14 @@ template <ExactField T>
 Certificate certify_join(const BsplinePatch<T, 4>& a, const BsplinePatch<T, 4>& b, const Join<T>& join,
                          const Request& request) {
   const RoundingGuard guard;
-  return JoinCertifier<T>(a, b, join, request).run();
+  const DeadlineScope scope(seconds_from_now(request.seconds_per_join));
+  try {
+    return JoinCertifier<T>(a, b, join, request).run();
+  } catch (const deadline_passed&) {  // before there is anything to bound
+    Certificate out = JoinCertifier<T>::nothing_known();
+    JoinCertifier<T>::say_time_is_up(out);
+    return out;
+  }
 }
 
 template <ExactField T>

@@ -6,6 +6,7 @@
 #include <limits>
 #include <queue>
 
+#include "patchproof/deadline.h"
 #include "patchproof/scalar/ball.h"
 
 namespace patchproof {
@@ -202,13 +203,20 @@ DeviationBound bound_deviation(const std::vector<DeviationPiece>& pieces, Deviat
     try_witness(pieces[i].coefficients.back(), static_cast<int>(i), 1);
   }
   for (std::size_t i = 0; i < pieces.size(); ++i) push(pieces[i].coefficients, static_cast<int>(i), 0, 0, 1);
+  constexpr std::size_t kWork = 4096;
+  std::size_t work = kWork;
   int nodes = 0;
   const auto too_wide = [&](double upper) {
     return upper == kInfinity || upper - lower > std::ldexp(upper, -budget.tight_bits);
   };
   while (!queue.empty() && too_wide(queue.top().upper)) {
     if (++nodes > budget.nodes) break;
-    if (nodes % 64 == 0 && std::chrono::steady_clock::now() > budget.deadline) break;
+    // Halving costs the square of the degree: a look at the clock must cost little beside it, and not come too late.
+    work += queue.top().c.size() * queue.top().c.size();
+    if (work > kWork) {
+      work = 0;
+      if (has_deadline_passed() || std::chrono::steady_clock::now() > budget.deadline) break;
+    }
     const Node node = queue.top();
     queue.pop();
     auto [left, right] = halves(node.c);

@@ -40,13 +40,8 @@ class Bounder {
     const KnotVector<Rational>& range = join.a.parameters.knots();
     begin_ = range.domain_begin();
     end_ = range.domain_end();
-    // Coordinates relative to a point of the edge: what all points share is not rounded again and again.
     const Rational middle = (begin_ + end_) / Rational(2);
-    const Vec<Rational, 2> at = evaluate_rational(join.a.parameters, middle);
-    const Vec<Rational, 3> origin =
-        evaluate_rational(*join.a.surface, inside(join.a.surface->knots(Direction::u), at[0]),
-                          inside(join.a.surface->knots(Direction::v), at[1]));
-    const AffineMap<Rational> move = translation(-origin);
+    const AffineMap<Rational> move = translation(-origin_near(join.a, middle));
     for (int s = 0; s < 2; ++s)
       for (const bool end : {false, true})
         poles_[s][end] = pole_at(s == 0 ? join.a : join.b, end ? end_ : begin_, middle);
@@ -58,24 +53,35 @@ class Bounder {
 
   TrimmedBounds bounds() {
     TrimmedBounds out;
-    out.gap = bound(Deviation::gap);
-    out.angle = bound(Deviation::angle);
-    out.plane_angle = bound(Deviation::plane_angle);
+    out.gap = bound(Deviation::gap, 3);
+    out.angle = bound(Deviation::angle, 2);
+    out.plane_angle = bound(Deviation::plane_angle, 1);
     for (const Piece& piece : pieces_)
       for (const MovedSide& side : sides_)
-        for (const Rational& t : {piece.begin, piece.end}) {
-          const Vec<Rational, 2> at = evaluate_rational(*side.curve, t);
-          for (const Direction d : {Direction::u, Direction::v}) {
-            const KnotVector<Rational>& k = side.surface.knots(d);
-            const Rational& x = at[d == Direction::u ? 0 : 1];
-            out.outside = std::max({out.outside, nearest_double(Rational(k.domain_begin() - x)),
-                                    nearest_double(Rational(x - k.domain_end()))});
-          }
-        }
+        out.outside = std::max({out.outside, outside(side, piece.begin), outside(side, piece.end)});
     return out;
   }
 
  private:
+  static constexpr int kDepth = 40;  // that of slivers; pieces are not halved any more
+
+  // How far a parameter curve leaves its surface's domain at t, at least; exactly where it certainly does.
+  static double outside(const MovedSide& side, const Rational& t) {
+    const int span = side.curve->knots().find_span(t);
+    const Vec<Interval, 3> h = evaluate_in_span<Interval>(*side.curve, span, enclose(t));
+    double out = 0;
+    for (const Direction d : {Direction::u, Direction::v}) {
+      const KnotVector<Rational>& k = side.surface.knots(d);
+      const int i = d == Direction::u ? 0 : 1;
+      const Interval x = h[i] / h[2];
+      if (!(x.inf() > enclose(k.domain_end()).sup()) && !(x.sup() < enclose(k.domain_begin()).inf())) continue;
+      const Rational exact = evaluate_rational(*side.curve, t)[i];
+      out = std::max(
+          {out, nearest_double(Rational(k.domain_begin() - exact)), nearest_double(Rational(exact - k.domain_end()))});
+    }
+    return out;
+  }
+
   void collect(const TrimmedJoin& join) {
     std::vector<Rational> all = join.a.parameters.knots().breaks();
     const std::vector<Rational> more = join.b.parameters.knots().breaks();
@@ -85,9 +91,17 @@ class Bounder {
     for (std::size_t i = 0; i + 1 < all.size(); ++i) add(all[i], all[i + 1], 0, pieces_);
   }
 
-  // The pieces of [begin, end]: halved at knot lines until a piece lies between them, or is too short to tell.
+  // The pieces of [begin, end]: halved at knot lines until a piece lies between them, or is too short to tell. Nothing is
+  // known of those that there is no time for.
   void add(const Rational& begin, const Rational& end, int depth, std::vector<Piece>& out) {
-    constexpr int kDepth = 40;
+    try {
+      check_deadline();
+      add_pieces(begin, end, depth, out);
+    } catch (const deadline_passed&) {
+      out.push_back({begin, end, kDepth, {}, {}});
+    }
+  }
+  void add_pieces(const Rational& begin, const Rational& end, int depth, std::vector<Piece>& out) {
     constexpr double kNarrow = 0x1p-40;  // of the range of the parameters
     const Rational middle = (begin + end) / Rational(2);
     const Model t = Model::variable(enclose(middle), enclose(Rational((end - begin) / Rational(2))));
@@ -127,8 +141,10 @@ class Bounder {
     ++pieces_made_;
     Piece piece{begin, end, depth, {}, {}};
     const bool pole = at_begin || at_end;
-    for (const Frame& a : frames(sides_[0], runs[0]))
-      for (const Frame& b : frames(sides_[1], runs[1])) {
+    const std::vector<Frame> all_a = frames(sides_[0], runs[0]), all_b = frames(sides_[1], runs[1]);
+    for (const Frame& a : all_a) {
+      check_deadline();
+      for (const Frame& b : all_b) {
         Vec<Model, 3> difference;
         for (int c = 0; c < 3; ++c) difference[c] = a.point[c] * b.point[3] - b.point[c] * a.point[3];
         piece.gap.push_back(to_piece(difference, a.point[3] * b.point[3]));
@@ -136,6 +152,7 @@ class Bounder {
         for (int c = 0; c < 3; ++c)
           for (const Interval& x : {a.point[c].bernstein_range()}) size_ = std::max({size_, x.sup(), -x.inf()});
       }
+    }
     if (pole) piece.angle = at_pole(runs, t, middle, at_end);
     out.push_back(std::move(piece));
   }
@@ -215,8 +232,11 @@ class Bounder {
     bool operator<(const Node& o) const { return upper != o.upper ? upper < o.upper : piece.begin > o.piece.begin; }
   };
 
-  TrimmedBound bound(Deviation what) {
-    constexpr int kMaxDepth = 40;  // that of slivers
+  // Of the time that is left, one of so many shares.
+  TrimmedBound bound(Deviation what, int shares) {
+    using Clock = DeadlineScope::Clock;
+    const bool limited = budget_.deadline != Clock::time_point::max();
+    const DeadlineScope share(limited ? Clock::now() + (budget_.deadline - Clock::now()) / shares : budget_.deadline);
     const double worst = what == Deviation::gap ? kInfinity : what == Deviation::angle ? 180 : 90;
     const double floor = what == Deviation::gap ? std::ldexp(size_, -36) : 0x1p-34;  // degrees: 6e-11
     TrimmedBound out{0, 0, begin_, true};
@@ -239,7 +259,7 @@ class Bounder {
         out.lower = lower;
         out.t = piece.begin + (piece.end - piece.begin) * from_double(at);
       }
-      if (piece.depth >= kMaxDepth || upper <= out.lower)
+      if (piece.depth >= kDepth || upper <= out.lower)
         settled = std::max(settled, upper);
       else
         queue.push({upper, std::move(piece)});
@@ -250,13 +270,14 @@ class Bounder {
     };
     int halvings = 0;
     while (!queue.empty() && !is_tight(queue.top().upper) && queue.top().upper > settled) {
-      if (++halvings > budget_.nodes || std::chrono::steady_clock::now() > budget_.deadline) break;
-      const Piece piece = queue.top().piece;
-      queue.pop();
+      if (++halvings > budget_.nodes) break;
+      const Piece& piece = queue.top().piece;
       const Rational middle = (piece.begin + piece.end) / Rational(2);
       std::vector<Piece> halves;
       add(piece.begin, middle, piece.depth + 1, halves);
       add(middle, piece.end, piece.depth + 1, halves);
+      if (has_deadline_passed()) break;  // the whole is known better than halves without time
+      queue.pop();
       for (Piece& half : halves) push(std::move(half));
     }
     out.upper = std::max({out.lower, settled, queue.empty() ? 0 : queue.top().upper});
@@ -339,7 +360,13 @@ TrimmedBounds bound_trimmed(const TrimmedJoin& join, const Budget& budget) {
   PATCHPROOF_REQUIRES(join.a.parameters.knots().domain_begin() == join.b.parameters.knots().domain_begin() &&
                           join.a.parameters.knots().domain_end() == join.b.parameters.knots().domain_end(),
                       "bound_trimmed: the parameter curves have different ranges");
-  return Bounder(join, budget).bounds();
+  const DeadlineScope scope(budget.deadline);
+  try {
+    return Bounder(join, budget).bounds();
+  } catch (const deadline_passed&) {  // before the edge was cut into pieces
+    const Rational& begin = join.a.parameters.knots().domain_begin();
+    return {{0, kInfinity, begin, false}, {0, 180, begin, false}, {0, 90, begin, false}, 0};
+  }
 }
 
 }  // namespace patchproof

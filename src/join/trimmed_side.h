@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "patchproof/deadline.h"
 #include "patchproof/join/trimmed_join.h"
 #include "patchproof/patch/rational_patch.h"
 #include "patchproof/scalar/power_series.h"
@@ -36,6 +38,44 @@ inline Surface enclosed(const BsplinePatch<Rational, 4>& patch) {
   std::vector<Vec<Interval, 4>> net;
   for (const auto& p : patch.net()) net.push_back({{enclose(p[0]), enclose(p[1]), enclose(p[2]), enclose(p[3])}});
   return {patch.knots(Direction::u), patch.knots(Direction::v), std::move(net)};
+}
+
+inline const Rational& inside(const KnotVector<Rational>& k, const Rational& x) {
+  return x < k.domain_begin() ? k.domain_begin() : x > k.domain_end() ? k.domain_end() : x;
+}
+
+// A point near the middle of the edge, with short numbers; it moves as the surface does. Coordinates relative to it are not
+// rounded again and again in what all points share.
+inline Vec<Rational, 3> origin_near(const TrimmedSide& side, const Rational& t) {
+  const Vec<double, 3> h =
+      evaluate_in_span<double>(side.parameters, side.parameters.knots().find_span(t), nearest_double(t));
+  Rational at[2];
+  int spans[2];
+  for (const Direction d : {Direction::u, Direction::v}) {
+    const int i = d == Direction::u ? 0 : 1;
+    const KnotVector<Rational>& k = side.surface->knots(d);
+    const double x = h[i] / h[2];
+    at[i] = inside(k, std::isfinite(x) ? from_double(x) : k.domain_begin());
+    spans[i] = k.find_span(at[i]);
+  }
+  const int p = side.surface->degree(Direction::u), q = side.surface->degree(Direction::v);
+  const Vec<Rational, 3> corner = project(side.surface->point(spans[0] - p, spans[1] - q));
+  Vec<double, 4> sum;
+  const auto basis_u = basis_derivatives_in_span<double>(side.surface->knots(Direction::u), spans[0],
+                                                         nearest_double(at[0]), 0),
+             basis_v = basis_derivatives_in_span<double>(side.surface->knots(Direction::v), spans[1],
+                                                         nearest_double(at[1]), 0);
+  for (int i = 0; i <= p; ++i)
+    for (int j = 0; j <= q; ++j) {
+      const Vec<Rational, 4>& x = side.surface->point(spans[0] - p + i, spans[1] - q + j);
+      const double b = basis_u[0][i] * basis_v[0][j];
+      for (int c = 0; c < 3; ++c) sum[c] += b * nearest_double(Rational(x[c] - corner[c] * x[3]));
+      sum[3] += b * nearest_double(x[3]);
+    }
+  Vec<Rational, 3> out = corner;
+  for (int c = 0; c < 3; ++c)
+    if (const double away = sum[c] / sum[3]; std::isfinite(away)) out[c] = out[c] + from_double(away);
+  return out;
 }
 
 // The spans of the knots that a parameter in [x.inf, x.sup] may lie in; the outermost ones reach to infinity.
@@ -73,6 +113,32 @@ inline Run run_of(const MovedSide& side, const Model& t, const Rational& inside)
   return run;
 }
 
+// Enclosures of a side's homogeneous point and of w⁴ times its normal at one parameter, when one polynomial is meant there.
+struct EnclosedEnd {
+  Vec<Interval, 4> point;
+  Vec<Interval, 3> normal;
+};
+inline std::optional<EnclosedEnd> enclosed_end(const TrimmedSide& side, const Rational& t) {
+  const int span = side.parameters.knots().find_span(t);
+  const Vec<Interval, 3> h = evaluate_in_span<Interval>(side.parameters, span, enclose(t));
+  if (!(h[2].inf() > 0)) return std::nullopt;
+  Interval at[2];
+  int spans[2];
+  for (const Direction d : {Direction::u, Direction::v}) {
+    const int i = d == Direction::u ? 0 : 1;
+    const KnotVector<Rational>& k = side.surface->knots(d);
+    const Interval x = h[i] / h[2], begin = enclose(k.domain_begin()), end = enclose(k.domain_end());
+    // As `inside` has it: the nearest parameter in the domain.
+    at[i] = Interval(std::min(std::max(x.inf(), begin.inf()), end.inf()),
+                     std::max(std::min(x.sup(), end.sup()), begin.sup()));
+    const std::vector<int> meeting = spans_meeting(k, at[i]);
+    if (meeting.size() != 1) return std::nullopt;
+    spans[i] = meeting.front();
+  }
+  const auto d = partial_derivatives_in_span<Interval>(*side.surface, spans[0], spans[1], at[0], at[1], 1, 1);
+  return EnclosedEnd{d.at(0, 0), scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1))};
+}
+
 // A homogeneous point and w⁴ times the face's normal.
 struct Frame {
   Vec<Model, 4> point;
@@ -82,6 +148,7 @@ inline std::vector<Frame> frames(const MovedSide& side, const Run& run) {
   std::vector<Frame> out;
   for (const int i : run.spans_u)
     for (const int j : run.spans_v) {
+      check_deadline();
       const auto d = partial_derivatives_in_span<Model>(side.surface, i, j, run.u, run.v, 1, 1);
       const Vec<Model, 3> n = scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1));
       out.push_back({d.at(0, 0), side.flipped ? -n : n});
@@ -99,6 +166,7 @@ inline std::vector<Vec<Interval, 3>> normal_rates(const MovedSide& side, const R
   std::vector<Vec<Interval, 3>> out;
   for (const int i : run.spans_u)
     for (const int j : run.spans_v) {
+      check_deadline();
       const auto d = partial_derivatives_in_span<Series>(side.surface, i, j, u, v, 1, 1);
       const Vec<Series, 3> n = scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1));
       Vec<Interval, 3> rate;
@@ -106,10 +174,6 @@ inline std::vector<Vec<Interval, 3>> normal_rates(const MovedSide& side, const R
       out.push_back(side.flipped != at_end ? -rate : rate);
     }
   return out;
-}
-
-inline const Rational& inside(const KnotVector<Rational>& k, const Rational& x) {
-  return x < k.domain_begin() ? k.domain_begin() : x > k.domain_end() ? k.domain_end() : x;
 }
 
 // w⁴ times the face's normal at the begin or the end of the edge, exactly.
@@ -131,8 +195,11 @@ struct Pole {
   bool zero = true;
   Vec<Rational, 3> normal;  // n(t_0)
 };
+// COST of an ordinary end that of intervals; of a pole, and of what may be one, exact values.
 inline Pole pole_at(const TrimmedSide& side, const Rational& end, const Rational& middle) {
   const Rational short_square = from_double(0x1p-60);
+  const auto a = enclosed_end(side, end), b = enclosed_end(side, middle);
+  if (a && b && dot(a->normal, a->normal).inf() > (Interval(0x1p-60) * dot(b->normal, b->normal)).sup()) return {};
   Pole out;
   out.normal = end_normal(side, end);
   out.zero = detail::is_zero_point(out.normal);

@@ -38,8 +38,10 @@ class WitnessFinder {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const int degree = static_cast<int>(pieces_[i].a[0].size() + pieces_[i].b[0].size());
       const int count = 4 * degree + 1;
-      for (int k = 0; k <= count; ++k)
+      for (int k = 0; k <= count; ++k) {
+        check_deadline();
         if (auto witness = try_at(quantity, static_cast<int>(i), T(T(k) / T(count)))) return witness;
+      }
     }
     return std::nullopt;
   }

@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "patchproof/deadline.h"
 #include "patchproof/join/join.h"
 #include "patchproof/join/join_polynomials.h"
 #include "patchproof/scalar/interval.h"
@@ -81,6 +82,7 @@ std::vector<JoinPiece<T>> join_pieces(const BsplinePatch<T, 4>& a, const Bspline
     cuts.erase(std::unique(cuts.begin(), cuts.end(), [](const auto& x, const auto& y) { return x.first == y.first; }),
                cuts.end());
     for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+      check_deadline();
       JoinPiece<T> piece{cuts[c].first, cuts[c + 1].first, cuts[c].second, cuts[c + 1].second, {}, {}};
       const bool reversed = piece.b_end < piece.b_begin;
       for (int k = 0; k < 3; ++k) {

@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "patchproof/deadline.h"
 #include "patchproof/error.h"
 #include "patchproof/scalar/concepts.h"
 #include "patchproof/spline/bspline_basis.h"
@@ -170,6 +171,7 @@ PartialDerivatives<U, N> contract(const BsplinePatch<T, N, K>& patch, int span_u
   const std::size_t orders_v = basis_v.size();
   std::vector<Vec<U, N>> values(basis_u.size() * orders_v);
   for (int i = 0; i <= p; ++i) {
+    if constexpr (ExactRing<U>) check_deadline();
     std::vector<Vec<U, N>> along_v(orders_v);
     for (int j = 0; j <= q; ++j) {
       Vec<U, N> point;

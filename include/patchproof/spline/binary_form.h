@@ -10,7 +10,8 @@
 //          (3) elevated(k) is the same polynomial;  (4) the empty form is the zero polynomial, of any degree;
 //          (5) strip_ends divides by t^k s^l exactly;  (6) gcd divides every input, and inputs divided by it have gcd 1.
 // SCALARS  R: Ring; gcd and divisions: ExactField.
-// COST     product of degrees m and n: (m+1)(n+1) multiplications.
+// COST     product of degrees m and n: (m+1)(n+1) multiplications. In exact rings products, gcd and divisions throw
+//          deadline_passed where a limit of deadline.h passes.
 // SOURCE   R. Farouki, V. Rajan, Algorithms for polynomials in Bernstein form, CAGD 5 (1988) 1–26 (scaled basis).
 #pragma once
 
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "patchproof/contract.h"
+#include "patchproof/deadline.h"
 #include "patchproof/scalar/concepts.h"
 #include "patchproof/scalar/integer.h"
 #include "patchproof/scalar/rational.h"
@@ -48,9 +50,13 @@ class BinaryForm {
 
   friend BinaryForm operator*(const BinaryForm& f, const BinaryForm& g) {
     if (f.is_empty() || g.is_empty()) return {};
+    constexpr std::size_t kShort = 8;  // products of such forms are no longer than a look at the clock
     std::vector<R> r(f.a_.size() + g.a_.size() - 1);
-    for (std::size_t i = 0; i < f.a_.size(); ++i)
+    for (std::size_t i = 0; i < f.a_.size(); ++i) {
+      if constexpr (ExactRing<R>)
+        if (i == 0 || g.a_.size() > kShort) check_deadline();
       for (std::size_t j = 0; j < g.a_.size(); ++j) r[i + j] += f.a_[i] * g.a_[j];
+    }
     return BinaryForm(std::move(r));
   }
   friend BinaryForm operator+(const BinaryForm& f, const BinaryForm& g) {
@@ -195,6 +201,7 @@ std::vector<R> divide(std::vector<R>& p, const std::vector<R>& q) {
     const std::size_t shift = p.size() - q.size();
     const R factor = p.back() / q.back();
     quotient[shift] = factor;
+    check_deadline();
     for (std::size_t i = 0; i + 1 < q.size(); ++i) p[shift + i] = p[shift + i] - factor * q[i];
     p.pop_back();
     trim(p);
@@ -207,6 +214,7 @@ template <ExactField R>
 std::vector<R> last_remainder(std::vector<R> p, std::vector<R> q) {
   while (!q.empty()) {
     const R lead = q.back();
+    check_deadline();
     for (R& c : q) c = c / lead;
     divide(p, q);
     std::swap(p, q);
@@ -217,7 +225,10 @@ std::vector<R> last_remainder(std::vector<R> p, std::vector<R> q) {
 // Divides by the content. REQUIRES not empty.
 inline void make_primitive(std::vector<Integer>& p) {
   Integer content(0);
-  for (const Integer& c : p) mpz_gcd(content.backend().data(), content.backend().data(), c.backend().data());
+  for (const Integer& c : p) {
+    check_deadline();
+    mpz_gcd(content.backend().data(), content.backend().data(), c.backend().data());
+  }
   for (Integer& c : p) mpz_divexact(c.backend().data(), c.backend().data(), content.backend().data());
 }
 

@@ -70,6 +70,7 @@ void isolate(std::vector<F> b, const F& begin, const F& end, const F& width, std
     out.emplace_back(begin, end);
     return;
   }
+  check_deadline();
   const F middle = (begin + end) / F(2);
   auto [left, right] = halves(std::move(b));
   const bool root_at_middle = zero(right.front());
