@@ -103,8 +103,9 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
       out.kind = edge.kind == CadEdgeKind::seam ? JoinKind::seam : JoinKind::trimmed;
       out.a = reported_side(*a, edge.label);
       out.b = reported_side(*b, edge.label);
+      const auto deadline = seconds_from_now(options.request.seconds_per_join);  // of both together
       out.certificate = certify_trimmed(join, options.request);
-      out.edge_class = edge_class_of(join, out.certificate, options.smooth_below, options.request.seconds_per_join);
+      out.edge_class = edge_class_of(join, out.certificate, options.smooth_below, deadline);
       out.judgement = judge_edge(out.certificate, *out.edge_class, options.smooth_below, request_at(options, out.kind));
       const std::size_t now = ++done;
       if (options.progress) options.progress(now, pairs.size());
