@@ -12,6 +12,7 @@
 
 #include "cli/commands.h"
 #include "patchproof/io/cad.h"
+#include "patchproof/io/curve_files.h"
 #include "patchproof/io/profile.h"
 #include "patchproof/io/read.h"
 #include "patchproof/io/report.h"
@@ -22,7 +23,7 @@ namespace {
 struct Options {
   std::vector<std::string> models;
   std::optional<std::string> require;
-  std::optional<double> gap, angle;
+  std::optional<double> gap, angle, curvature;
   std::string profile;
   double match = 0, budget = 10, smooth_below = 5;
   int jobs = 0;
@@ -88,8 +89,8 @@ Result<Input> read_input(const std::string& path, Decimals decimals, [[maybe_unu
   }
   Result<ModelFile> file = read_model(path, decimals);
   if (!file) return file.error();
-  if (std::visit([](const auto& model) { return model.patches.empty(); }, file->model))
-    return Error{ErrorCode::wrong_count, path, "the model has no patches, so there are no joins to certify", ""};
+  if (std::visit([](const auto& model) { return model.patches.empty() && model.curves.empty(); }, file->model))
+    return Error{ErrorCode::wrong_count, path, "the model has neither patches nor curves: no joins to certify", ""};
   return Input(std::move(*file));
 }
 
@@ -97,6 +98,17 @@ std::string_view units_of(const Input& input) {
   if (const CadModel* cad = std::get_if<CadModel>(&input)) return cad->units;
   return std::visit([](const auto& model) -> std::string_view { return model.units; },
                     std::get<ModelFile>(input).model);
+}
+
+// The curves of a file that holds nothing else.
+std::optional<CurveFile> only_curves(const Input& input) {
+  if (const CadModel* cad = std::get_if<CadModel>(&input)) {
+    if (!cad->faces.empty() || !cad->left_out.empty() || !cad->edges.empty()) return std::nullopt;
+    return curves_of(*cad);
+  }
+  const ModelFile& file = std::get<ModelFile>(input);
+  if (!std::visit([](const auto& model) { return model.patches.empty(); }, file.model)) return std::nullopt;
+  return curves_of(file);
 }
 
 int list_profiles() {
@@ -123,6 +135,7 @@ int run(const Options& options) {
   certify.request.seconds_per_join = options.budget;
   certify.given = certify.request;
   certify.profile = find_profile(options.profile);
+  certify.curvature_tolerance = options.curvature;
   certify.match_length = options.match;
   certify.smooth_below = options.smooth_below;
   certify.jobs = options.jobs;
@@ -142,19 +155,33 @@ int run(const Options& options) {
     if (options.json != "-" && std::filesystem::equivalent(path, options.json, ignored))
       return report_error({ErrorCode::usage, "--json", "would overwrite the model", options.json});
   }
+  // Files that hold only curves are one model: ends meet across them.
+  std::vector<CurveFile> curves;
+  for (std::size_t i = 0; i < files.size();) {
+    std::optional<CurveFile> own = files.size() + curves.size() > 1 ? only_curves(files[i]) : std::nullopt;
+    if (own && !curves.empty())
+      files.erase(files.begin() + static_cast<std::ptrdiff_t>(i));  // reported with the first of them
+    else
+      ++i;
+    if (own) curves.push_back(std::move(*own));
+  }
   Outcome outcome = Outcome::pass;
   std::ostringstream json, table;
   if (!options.json.empty() && files.size() > 1) json << "[";
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (certify.profile) certify.request = *tolerances_of(*certify.profile, units_of(files[i]), certify.given);
-    const Report report = std::visit(
-        [&]<class File>(const File& file) {
-          if constexpr (std::is_same_v<File, CadModel>)
-            return certify_cad(file, certify);
-          else
-            return certify_model(file, certify);
-        },
-        files[i]);
+    const Result<Report> certified = curves.size() > 1 && only_curves(files[i])
+                                         ? certify_curve_files(curves, certify)
+                                         : std::visit(
+                                               [&]<class File>(const File& file) -> Result<Report> {
+                                                 if constexpr (std::is_same_v<File, CadModel>)
+                                                   return certify_cad(file, certify);
+                                                 else
+                                                   return certify_model(file, certify);
+                                               },
+                                               files[i]);
+    if (!certified) return report_error(certified.error());
+    const Report& report = *certified;
     outcome = worse(outcome, report.outcome());
     if (!options.json.empty()) {
       if (i > 0) json << ",\n";
@@ -189,6 +216,11 @@ void add_certify(CLI::App& app, int& exit_code) {
   command->add_option("--angle", options->angle, "largest normal angle allowed, in degrees")
       ->check(between(0, 180))
       ->option_text("DEGREES");
+  command
+      ->add_option("--curvature", options->curvature,
+                   "models of curves: largest difference of curvature vectors where two join, in 1/the model's units")
+      ->check(between(0, 1e300))
+      ->option_text("CURVATURE");
   std::vector<std::string> names{"list"};
   for (const Profile& profile : all_profiles()) names.emplace_back(profile.name);
   command

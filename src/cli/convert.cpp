@@ -18,7 +18,7 @@ namespace {
           "STEP, IGES and BREP files need a build with Open CASCADE (Debian: libocct-data-exchange-dev)", ""};
 }
 
-// The surfaces of a CAD model's faces, without their borders.
+// The surfaces of a CAD model's faces, without their borders, and its edges of no face.
 [[maybe_unused]] ModelFile untrimmed(CadModel&& cad) {
   Model<Rational> model;
   model.units = cad.units.substr(0, cad.units.find(" (file"));
@@ -27,8 +27,14 @@ namespace {
     const bool rational = std::any_of(net.begin(), net.end(), [](const auto& p) { return p[3] != Rational(1); });
     model.patches.push_back({std::move(face.label), std::move(face.surface), rational});
   }
+  for (CadCurve& c : cad.curves) {
+    const auto& points = c.curve.points();
+    const bool rational = std::any_of(points.begin(), points.end(), [](const auto& p) { return p[3] != Rational(1); });
+    model.curves.push_back({std::move(c.label), std::move(c.curve), rational, 3});
+  }
   ModelFile file{cad.path, cad.format, cad.sha256, Decimals::binary64, std::move(model), std::move(cad.notes)};
-  file.notes.push_back("the faces' surfaces are written untrimmed: borders and shared edges are left out");
+  if (!cad.faces.empty())
+    file.notes.push_back("the faces' surfaces are written untrimmed: borders and shared edges are left out");
   return file;
 }
 

@@ -2,6 +2,7 @@
 #include "patchproof/io/report.h"
 
 #include "patchproof/join/certify.h"
+#include "report_curves.h"
 #include "report_profile.h"
 
 namespace patchproof {
@@ -91,14 +92,23 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
 
 Outcome Report::outcome() const {
   // Something was asked and nothing could be looked at: that is no pass.
-  const bool asked = request.require || request.gap_tolerance || request.angle_tolerance;
+  const bool asked =
+      request.require || request.gap_tolerance || request.angle_tolerance || (curves && curves->curvature_tolerance);
   const bool blind =
       cad && (!cad->left_out.empty() || std::any_of(cad->no_joins.begin(), cad->no_joins.end(),
                                                     [](const ReportedEdge& edge) { return edge.kind == "unusable"; }));
-  Outcome worst = asked && (joins.empty() || blind) ? Outcome::undecided : Outcome::pass;
+  // A profile asks nothing of curves.
+  const bool nothing = joins.empty() && (profile || !curves || curves->joins.empty());
+  const bool crowded = curves && curves->crowded;
+  Outcome worst = asked && (nothing || blind || crowded) ? Outcome::undecided : Outcome::pass;
   for (const ReportedJoin& join : joins) {
     if (join.judgement.outcome == Outcome::fail) return Outcome::fail;
     if (join.judgement.outcome == Outcome::undecided) worst = Outcome::undecided;
+  }
+  for (std::size_t i = 0; curves && i < curves->joins.size(); ++i) {
+    const Outcome outcome = curves->joins[i].judgement.outcome;
+    if (outcome == Outcome::fail) return Outcome::fail;
+    if (outcome == Outcome::undecided) worst = Outcome::undecided;
   }
   return worst;
 }
@@ -111,6 +121,7 @@ Report certify_model(const ModelFile& file, const CertifyOptions& options) {
   report.decimals = file.decimals;
   report.notes = file.notes;
   std::visit([&](const auto& model) { certify_into(report, model, options); }, file.model);
+  add_curve_joins(report, curves_of(file), options);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "patchproof/io/report.h"
+#include "report_curves.h"
 #include "report_profile.h"
 
 namespace patchproof {
@@ -207,6 +208,7 @@ void write_json(std::ostream& out, const Report& r) {
   }
   out << "],\n";
   if (r.cad) out << cad_text(*r.cad);
+  if (r.curves) out << curves_json(r);
   out << "\"summary\":" << summary_json(r).dump() << ",\n\"verdict\":\"" << to_string(r.outcome()) << "\"}\n";
 }
 

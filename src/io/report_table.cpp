@@ -10,7 +10,9 @@
 #include <ostream>
 
 #include "patchproof/io/report.h"
+#include "report_curves.h"
 #include "report_profile.h"
+#include "report_text.h"
 
 namespace patchproof {
 namespace {
@@ -29,37 +31,11 @@ std::string class_text(const Certificate& c) {
   return c.angle.lower >= 180 ? "C0, cusp" : c.g1.verdict == Verdict::undecided ? "C0, G1 undecided" : "C0";
 }
 
-// Names from files may hold anything: control characters would forge lines or colours.
-std::string printable(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    else
-      out += c;
-  }
-  return out;
-}
-
-// Five digits, rounded outward; the JSON has all of them.
-std::string bound_text(const EnclosedMaximum& m) {
-  if (m.lower == m.upper) return fmt::format("{}", m.lower);
-  const auto outward = [](double x, bool up) {
-    const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(x))) - 4);
-    if (!(unit > 0)) return x;  // below the smallest normal number there are not five digits
-    double digits = up ? std::ceil(x / unit) : std::floor(x / unit);
-    // The quotient was rounded: what is printed must still be on the right side.
-    const auto printed = [&] { return std::strtod(fmt::format("{:.5g}", digits * unit).c_str(), nullptr); };
-    while (up ? printed() < x : printed() > x) digits += up ? 1 : -1;
-    return digits * unit;
-  };
-  return fmt::format("[{:.5g}, {:.5g}]", m.lower == 0 ? 0.0 : outward(m.lower, false),
-                     std::isfinite(m.upper) ? outward(m.upper, true) : m.upper);
-}
+std::string bound_text(const EnclosedMaximum& m) { return patchproof::bound_text(m.lower, m.upper); }
 
 // "wall.u_max", with the range where only a part of the edge joins: "wall.u_max[0, 0.5]".
 std::string side_text(const Report& r, const ReportedSide& s, bool part) {
-  const std::string name = printable(r.patch_names[s.patch]);
+  const std::string name = escaped(r.patch_names[s.patch]);
   const std::string edge = (name.empty() ? std::to_string(s.patch) : name) + "." + s.edge;
   return part ? fmt::format("{}[{:.6g}, {:.6g}]", edge, std::min(s.begin, s.end), std::max(s.begin, s.end)) : edge;
 }
@@ -100,16 +76,13 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
                     bound_text(c.angle) + (c.angle.upper > 90 ? " (planes " + bound_text(c.plane_angle) + ")" : ""),
                     place_text(c)});
   }
-  const auto width = [](const std::string& s) {  // characters, not bytes
-    return std::count_if(s.begin(), s.end(), [](char ch) { return (ch & 0xC0) != 0x80; });
-  };
   std::array<long, 7> widths{};
   for (const auto& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max<long>(widths[k], width(row[k]));
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max<long>(widths[k], width_of(row[k]));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::string line;
     for (std::size_t k = 0; k < rows[i].size(); ++k)
-      line += rows[i][k] + std::string(k + 1 < rows[i].size() ? widths[k] - width(rows[i][k]) + 2 : 0, ' ');
+      line += rows[i][k] + std::string(k + 1 < rows[i].size() ? widths[k] - width_of(rows[i][k]) + 2 : 0, ' ');
     const char* mark = "  ";
     if (i > 0 && asked) {
       const Outcome o = order[i - 1]->judgement.outcome;
@@ -128,12 +101,22 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
 }  // namespace
 
 void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
-  out << fmt::format("{}: {}, {} patches, decimals {}, sha256 {}…\n", r.file, r.format, r.patch_names.size(),
-                     r.decimals == Decimals::exact ? "exact" : "binary64", r.sha256.substr(0, 16));
-  for (const std::string& note : r.notes) out << "note: " << printable(note) << '\n';
+  const auto heading = [&](const ReportedFile& f, std::size_t count, const char* what) {
+    out << fmt::format("{}: {}, {} {}, decimals {}, sha256 {}…\n", f.path, f.format, count, what,
+                       f.decimals == Decimals::exact ? "exact" : "binary64", f.sha256.substr(0, 16));
+  };
+  const bool only_curves = r.curves && r.patch_names.empty() && !(r.cad && !r.cad->left_out.empty());
+  if (!only_curves) heading({r.file, r.format, r.sha256, r.decimals}, r.patch_names.size(), "patches");
+  for (std::size_t i = 0; only_curves && i < r.curves->files.size(); ++i) {
+    const auto& curves = r.curves->curves;
+    const auto count = std::count_if(curves.begin(), curves.end(),
+                                     [&](const ReportedCurve& c) { return c.file == static_cast<int>(i); });
+    heading(r.curves->files[i], count, count == 1 ? "curve" : "curves");
+  }
+  for (const std::string& note : r.notes) out << "note: " << escaped(note) << '\n';
   if (r.cad)
     for (const ReportedFace& face : r.cad->left_out)
-      out << "left out: face " << printable(face.label) << ": " << printable(face.reason) << '\n';
+      out << "left out: face " << escaped(face.label) << ": " << escaped(face.reason) << '\n';
   if (!style.quiet && !r.joins.empty()) {
     out << '\n';
     write_rows(out, r, style);
@@ -156,11 +139,12 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     for (const auto& [name, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
     return text;
   };
-  out << fmt::format("{} joins{}{}\n", r.joins.size(), r.joins.empty() ? "" : ": ", listed(kinds));
+  if (r.curves) write_curves(out, r, style);
+  if (!only_curves) out << fmt::format("{} joins{}{}\n", r.joins.size(), r.joins.empty() ? "" : ": ", listed(kinds));
   if (!r.joins.empty()) {
     out << fmt::format("classes  {}\n", listed(classes));
     if (r.cad) out << fmt::format("edges    {} (sharp: above {:g} degrees)\n", listed(edges), r.cad->smooth_below);
-    out << fmt::format("gap      largest {}{}\n", bound_text(gap), r.units.empty() ? "" : " " + printable(r.units));
+    out << fmt::format("gap      largest {}{}\n", bound_text(gap), r.units.empty() ? "" : " " + escaped(r.units));
     out << fmt::format("angle    largest {} degrees\n", bound_text(angle));
   }
   const auto degenerate = std::count_if(r.joins.begin(), r.joins.end(), [](const ReportedJoin& j) {
@@ -186,7 +170,7 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
       out << ' ' << side_text(r, {r.unmatched[i].patch, to_string(r.unmatched[i].edge), 0, 1, "", ""}, false);
     out << (r.unmatched.size() > kShown ? " …\n" : "\n");
   }
-  if (r.request.require || r.request.gap_tolerance || r.request.angle_tolerance) {
+  if (!only_curves && (r.request.require || r.request.gap_tolerance || r.request.angle_tolerance)) {
     int pass = 0, fail = 0;
     for (const ReportedJoin& j : r.joins) {
       pass += j.judgement.outcome == Outcome::pass;

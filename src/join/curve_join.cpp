@@ -251,7 +251,7 @@ template CurveCertificate certify_curve_join(const CurveSide<Rational>&, const C
 template CurveCertificate certify_curve_join(const CurveSide<Quadratic>&, const CurveSide<Quadratic>&);
 
 std::string class_name(const CurveCertificate& c) {
-  if (!is_proven(c.c0)) return "no join";
+  if (!is_proven(c.c0)) return "gap";
   const bool cusp = c.angle && c.angle->lower >= 180;
   const std::string parametric = c.order == kOneFunction ? "C∞" : "C" + std::to_string(c.order);
   if (c.g1.verdict == Verdict::undecided) return parametric + ", no tangent";

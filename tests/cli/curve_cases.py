@@ -56,11 +56,40 @@ class Curves(Command):
         self.expect_refusal("evaluate", CUP, "--curve", 0, "--at", "0", names=["no curves"])
         self.assertIn(b"excludes", self.expect(2, "evaluate", both, "--curve", 0, "--patch", 0, "--at", "0").stderr)
 
-    def test_certify_needs_patches(self):
-        self.expect_refusal("certify", self.TOOLBOX / "test01.json", names=["test01.json", "no patches"])
-        out = self.dir / "report.json"
-        self.expect_refusal("certify", SPHERE, self.TOOLBOX / "test13.json", "--json", out, names=["test13.json"])
-        self.assertFalse(out.exists())
+    def test_certify_joins_of_curves(self):
+        report = json.loads(self.expect(0, "certify", self.TOOLBOX / "test08.json", "--json", "-").stdout)
+        self.assertEqual((report["joins"], report["input"]["patches"], report["curve_summary"]["curves"]), ([], 0, 2))
+        self.expect(3, "certify", self.TOOLBOX / "test01.json", "--require", "C0")  # no ends meet
+        for options, code in ((["--require", "G1"], 1), (["--require", "C0", "--gap", 0], 0), (["--angle", 89], 1),
+                              (["--angle", 91], 0), (["--curvature", 0], 0), (["--curvature", "nan"], 2)):
+            self.expect(code, "certify", self.lines("bent.json", [[0, 0], [1, 0]], [[1, 0], [1, 5]]), *options)
+
+    def lines(self, name, *lines):
+        curves = [{"name": f"line {i}", "degree": 1, "control_points": line} for i, line in enumerate(lines)]
+        return self.write(name, json.dumps({"format": "patchproof-model", "version": 1, "curves": curves}))
+
+    def test_certify_joins_curves_of_several_files(self):
+        first, second = self.lines("first.json", [[0, 0], [1, 0]]), self.lines("second.json", [[1, 0], [4, 0]])
+        report = json.loads(self.expect(0, "certify", first, second, "--require", "G1", "--json", "-").stdout)
+        join, = report["curve_joins"]
+        self.assertEqual((join["a"]["file"], join["b"]["file"]), (str(first), str(second)))
+        self.assertEqual((join["class"], join["exact"]["ratio"]), ("G2", "3"))
+        self.assertEqual(self.expect(0, "certify", first, second, "--jobs", 1).stdout,
+                         self.expect(0, "certify", first, second, "--jobs", 5).stdout)
+        table = self.expect(0, "certify", first, second, "--gap", 0).stdout.decode()
+        self.assertIn("first.json: line 0.end", table)
+        self.assertIn("1 pass, 0 fail, 0 undecided", table)
+        # Beside a model of patches the files of curves are one report; without --json - their table is one as well.
+        mixed = json.loads(self.expect(0, "certify", first, SPHERE, second, "--json", "-").stdout)
+        self.assertEqual([len(r.get("curve_files", [])) for r in mixed], [2, 0])
+        self.assertEqual(mixed[0]["curve_joins"], report["curve_joins"])
+        root2 = self.write("root2.json", self.root(2))
+        self.expect_refusal("certify", first, root2, self.write("root3.json", self.root(3)), names=["root3.json", "mixed_roots"])
+        self.expect_refusal("certify", first, self.dir / "none.json", names=["none.json"])
+
+    def root(self, n):
+        return json.dumps({"format": "patchproof-model", "version": 1,
+                           "curves": [{"degree": 1, "control_points": [[0, 0], [f"sqrt({n})", 0]]}]})
 
     def test_convert_round_trip(self):
         for path in sorted(self.TOOLBOX.glob("*.json")) + sorted(DATA.glob("*/good_*curve*")):

@@ -99,7 +99,7 @@ TEST(CurveJoin, Law1_KinksCuspsAndGaps) {
 
   const CurveCertificate gap = join(kLine, bezier({{1, 3, 4}, {2, 3, 4}}));
   EXPECT_EQ(verdicts(gap), "-----");
-  EXPECT_EQ(class_name(gap), "no join");
+  EXPECT_EQ(class_name(gap), "gap");
   EXPECT_EQ(gap.gap_squared, "25");
   EXPECT_EQ(gap.c0.values, (std::vector<std::string>{"0", "-3", "-4"}));
   expect_around(gap.gap, 5);
@@ -132,7 +132,7 @@ TEST(CurveJoin, Law1_OneCurveCutInTwo) {
   const std::vector<Rational> knots{q(0), q(0), q(0), q(0), q(1), q(3), q(3), q(3), q(3)};
   const auto [left, right] = split(Curve(KnotVector<Rational>::make(3, knots).value(), net), q(1));
   EXPECT_EQ(class_name(join(left, right)), "C2");
-  EXPECT_EQ(class_name(join(left, right, CurveEnd::begin, CurveEnd::end)), "no join");
+  EXPECT_EQ(class_name(join(left, right, CurveEnd::begin, CurveEnd::end)), "gap");
 }
 
 TEST(CurveJoin, Law1_SecondDerivativesAndCurvatures) {
@@ -276,7 +276,7 @@ TEST(CurveJoin, Law2_Law4_OffsetsAndScales) {
 TEST(CurveJoin, Law5_ClassesWithinTolerances) {
   const Rational tiny = q(1) / Rational(std::int64_t{1} << 40);
   const CurveCertificate near = join(kLine, bezier({{1, 0, 0}, {2, 0, 0}}, q(1), tiny));
-  EXPECT_EQ(class_name(near), "no join");
+  EXPECT_EQ(class_name(near), "gap");
   EXPECT_EQ(class_within(near, {}), "");
   EXPECT_EQ(class_within(near, {0.0, 0.0, 0.0}), "apart");
   EXPECT_EQ(class_within(near, {1e-6, {}, {}}), "G0");

@@ -7,18 +7,19 @@
 //
 // read_cad_model stands in the optional target patchproof::occt; certify_cad needs no Open CASCADE.
 //
-// ENSURES  (1) every edge of the file is listed once, as what it is: shared, seam, free, more than two faces, degenerate,
-//          or unusable with a reason;  (2) what Open CASCADE's readers deliver is taken as it is: no gap closed, no tolerance
+// ENSURES  (1) every edge of the file is listed once, as what it is: shared, seam, free, more than two faces, degenerate, a
+//          curve by itself when no face uses it, or unusable with a reason;  (2) what Open CASCADE's readers deliver is taken as it is: no gap closed, no tolerance
 //          changed, no edge merged;  (3) the denominators of all surfaces are certified to have no zero; a face that is not
 //          usable is refused, or left out, listed with the reason, and its edges are unusable;  (4) a face that stands in
 //          several places of an assembly is as many faces, each in its place;  (5) certify_cad's report does not depend on
 //          the number of jobs.
 // ERRORS   of read_cad_model: cannot_open, empty_input, syntax (Open CASCADE cannot read the file, or a part of a face),
-//          wrong_count (no face); of the first face that is not usable, whose label stands in `where`: unsupported,
+//          wrong_count (neither faces nor edges); of the first face that is not usable, whose label stands in `where`: unsupported,
 //          vanishing_weight, bad_number and those of knots.
 // TEST     tests/io/cad_test.cpp
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -67,11 +68,20 @@ struct LeftOutFace {
   std::string reason;
 };
 
+// An edge of no face, over its range.
+struct CadCurve {
+  std::string label;
+  std::string kind;                      // of the curve in the file: "line", "circle", …
+  BsplineCurve<Rational, 4> curve;       // homogeneous, run through as its curve in the file
+  std::array<double, 2> tolerance = {};  // of the file at its begin and its end, model units
+};
+
 struct CadModel {
   std::string path, format, sha256, units;
   std::vector<CadFace> faces;
   std::vector<LeftOutFace> left_out;
   std::vector<CadEdge> edges;
+  std::vector<CadCurve> curves;
   std::vector<std::string> notes;
 };
 
@@ -82,7 +92,7 @@ bool looks_like_cad(const std::string& path);
 enum class UnusableFaces { refuse, leave_out };
 Result<CadModel> read_cad_model(const std::string& path, UnusableFaces unusable = UnusableFaces::refuse);
 
-// Every shared edge and seam, and each pair of neighbours at an edge of more than two faces.
+// Every shared edge and seam, each pair of neighbours at an edge of more than two faces, and the ends of curves that meet.
 Report certify_cad(const CadModel& model, const CertifyOptions& options = {});
 
 }  // namespace patchproof

@@ -18,6 +18,7 @@
 
 #include "patchproof/io/model.h"
 #include "patchproof/join/certificate.h"
+#include "patchproof/join/curve_join.h"
 #include "patchproof/join/edge_match.h"
 
 namespace patchproof {
@@ -72,6 +73,43 @@ struct CadReport {
   std::vector<ReportedEdge> no_joins;
 };
 
+struct ReportedFile {
+  std::string path, format, sha256;
+  Decimals decimals = Decimals::exact;
+};
+
+struct ReportedCurve {
+  int file = 0;  // of CurveReport::files
+  std::string name;
+};
+
+struct ReportedCurveSide {
+  EndOfCurve of;
+  std::string parameter;  // exact
+};
+
+// Two ends of curves that meet.
+struct ReportedCurveJoin {
+  int id = 0;  // 1-based
+  ReportedCurveSide a, b;
+  std::array<double, 3> point{};  // the end of a
+  CurveCertificate certificate;
+  std::string within;  // class_within the tolerances asked for
+  Judgement judgement;
+  std::optional<EdgeClass> edge_class;  // of curves of CAD models, by the tangent angle
+};
+
+// What only models with curves have.
+struct CurveReport {
+  std::vector<ReportedFile> files;
+  std::vector<ReportedCurve> curves;
+  std::vector<ReportedCurveJoin> joins;
+  std::vector<EndOfCurve> free;
+  bool crowded = false;  // some pairs are left out: more than kMostPartners meet at one end
+  double match_length = 0;
+  std::optional<double> curvature_tolerance;
+};
+
 struct Report {
   std::string file, format, sha256, units;
   Decimals decimals = Decimals::exact;
@@ -83,9 +121,10 @@ struct Report {
   std::vector<EdgeRange> unmatched;
   std::vector<CollapsedEdge> collapsed;
   std::optional<CadReport> cad;
+  std::optional<CurveReport> curves;
 
-  // pass, fail or undecided over all joins; undecided when something was asked and there is no join, or a face or an edge
-  // could not be looked at.
+  // pass, fail or undecided over all joins, those of curves as well; undecided when something was asked and there is no
+  // join, or a face or an edge could not be looked at.
   Outcome outcome() const;
 };
 
@@ -94,6 +133,7 @@ struct CertifyOptions {
   // With a profile (one of all_profiles()): `request` is tolerances_of(profile, units, given).
   const Profile* profile = nullptr;
   Request given;
+  std::optional<double> curvature_tolerance;                        // of joins of curves, 1/model units
   double match_length = 0;                                          // 0: 1e-6 of the diagonal
   double smooth_below = 5;                                          // degrees: see EdgeClass
   int jobs = 0;                                                     // 0: one thread per processor

@@ -87,7 +87,7 @@ struct CurveCertificate {
 template <ExactField T>
 CurveCertificate certify_curve_join(const CurveSide<T>& a, const CurveSide<T>& b);
 
-// The strongest proven class: "no join", "C0", "C0, cusp", "G1", "C1", "G2", "G2, C1", "C2", "C5", "C∞" (one function).
+// The strongest proven class: "gap", "C0", "C0, cusp", "G1", "C1", "G2", "G2, C1", "C2", "C5", "C∞" (one function).
 std::string class_name(const CurveCertificate& certificate);
 
 struct CurveTolerances {

@@ -108,7 +108,11 @@ std::optional<Error> refused(const CadModel& model, UnusableFaces unusable) {
 class Reader {
  public:
   Reader(Converted& out, const Loaded& loaded)
-      : out_(out), model_(out.model), loaded_(loaded), before_(loaded.shape), after_(converted(loaded.shape)) {}
+      : out_(out),
+        model_(out.model),
+        loaded_(loaded),
+        before_(loaded.shape),
+        after_(before_.faces.IsEmpty() ? loaded.shape : converted(loaded.shape)) {}
 
   // ERRORS those of the first face that is not usable, when such faces are refused.
   std::optional<Error> read(UnusableFaces unusable) {
@@ -121,7 +125,9 @@ class Reader {
                in_step_ ? loaded_.face_faults[i - 1] : "");
     if (auto error = refused(model_, unusable)) return error;
     for (int i = 1; i <= after_.edges.Extent(); ++i)
-      add_edge(i, in_step_ ? loaded_.edge_labels[i - 1] : plain_label("edge", i));
+      if (!after_.faces_of(i).empty()) add_edge(i, in_step_ ? loaded_.edge_labels[i - 1] : plain_label("edge", i));
+    for (int i = 1; i <= before_.edges.Extent(); ++i)
+      if (before_.faces_of(i).empty()) add_curve(before_.edge(i), loaded_.edge_labels[i - 1]);
     return std::nullopt;
   }
 
@@ -204,6 +210,28 @@ class Reader {
                                  : CadEdgeKind::shared);
   }
 
+  // An edge of no face.
+  void add_curve(const TopoDS_Edge& edge, const std::string& label) {
+    const auto unusable = [&](CadEdgeKind kind, const std::string& note) {
+      model_.edges.push_back({label, kind, {}, BRep_Tool::Tolerance(edge), note});
+      out_.sources.emplace_back();
+    };
+    if (BRep_Tool::Degenerated(edge)) return unusable(CadEdgeKind::degenerate, "");
+    Result<SpaceCurve> curve = curve_of(edge);
+    if (!curve) return unusable(CadEdgeKind::unusable, curve.error().message);
+    if (curve->converted)
+      model_.notes.push_back(
+          "edge " + label + ": its " + curve->kind +
+          " is a B-spline as Open CASCADE converts it: derivatives are that of the B-spline's parameter");
+    CadCurve out{label, curve->kind, std::move(curve->curve), {}};
+    const auto forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
+    const TopoDS_Vertex vertices[2] = {TopExp::FirstVertex(forward), TopExp::LastVertex(forward)};
+    for (int i = 0; i < 2; ++i)
+      if (!vertices[i].IsNull())
+        if (const double t = BRep_Tool::Tolerance(vertices[i]); t > 0) out.tolerance[i] = std::min(t, 1e100);
+    model_.curves.push_back(std::move(out));
+  }
+
   Converted& out_;
   CadModel& model_;
   const Loaded& loaded_;
@@ -244,8 +272,13 @@ Result<Converted> read_here(const std::string& path, const std::string& sha256, 
   } catch (const Standard_Failure&) {
     return failed("to convert the file's shape to B-splines");
   }
-  if (!model.faces.empty()) return out;
-  if (model.left_out.empty()) return Error{ErrorCode::wrong_count, path, "the file holds no face", ""};
+  if (!model.faces.empty() || !model.curves.empty()) return out;
+  if (model.left_out.empty() && !model.edges.empty())
+    return Error{ErrorCode::wrong_count, path,
+                 "the file holds no face, and no edge that is usable, for example " + model.edges.front().label + ": " +
+                     model.edges.front().note,
+                 ""};
+  if (model.left_out.empty()) return Error{ErrorCode::wrong_count, path, "the file holds neither faces nor edges", ""};
   const LeftOutFace& first = model.left_out.front();
   return Error{ErrorCode::wrong_count, path,
                "no face of the file is usable, for example " + first.label + ": " + first.reason, ""};

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <optional>
 
+#include "exact_knots.h"
 #include "patchproof/patch/denominator.h"
 #include "patchproof/spline/bezier_extraction.h"
 #include "patchproof/spline/homogeneous.h"
@@ -29,22 +30,6 @@ namespace {
 using SurfaceHandle = opencascade::handle<Geom_BSplineSurface>;
 using CurveHandle = opencascade::handle<Geom2d_BSplineCurve>;
 using Patch = BsplinePatch<Rational, 4>;
-
-std::optional<Rational> exact(double x) {
-  if (!std::isfinite(x)) return std::nullopt;
-  return from_double(x);
-}
-
-template <class Knots, class Multiplicities>
-Result<KnotVector<Rational>> knots_of(int degree, const Knots& knots, const Multiplicities& multiplicities) {
-  std::vector<Rational> all;
-  for (int i = knots.Lower(); i <= knots.Upper(); ++i) {
-    const auto t = exact(knots(i));
-    if (!t) return Error{ErrorCode::bad_number, "", "a knot is not finite", ""};
-    all.insert(all.end(), multiplicities(i), *t);
-  }
-  return KnotVector<Rational>::make(degree, std::move(all));
-}
 
 // Of the parameters that a face's edges run through, in double.
 struct Ranges {

@@ -18,4 +18,14 @@ Result<BsplinePatch<Rational, 4>> surface_of(const TopoDS_Face& face);
 // The parameter curve of an edge on a face over its range, homogeneous.  ERRORS unsupported.
 Result<BsplineCurve<Rational, 3>> parameters_of(const TopoDS_Edge& edge, const TopoDS_Face& face);
 
+// The curve of an edge in space over its range, homogeneous. B-splines, Bézier curves and lines are taken exactly; others as Open
+// CASCADE converts them, with another parameter (`converted`).
+// ERRORS unsupported, bad_number, vanishing_weight, those of knots.
+struct SpaceCurve {
+  BsplineCurve<Rational, 4> curve;
+  const char* kind;
+  bool converted = false;
+};
+Result<SpaceCurve> curve_of(const TopoDS_Edge& edge);
+
 }  // namespace patchproof::occt
