@@ -10,6 +10,7 @@
 
 #include "edge_class.h"
 #include "patchproof/scalar/parse_scalar.h"
+#include "report_curves.h"
 #include "report_profile.h"
 #include "source_file.h"
 
@@ -111,6 +112,7 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
       if (options.progress) options.progress(now, pairs.size());
     });
   });
+  add_curve_joins(report, curves_of(model), options);
   return report;
 }
 
