@@ -37,6 +37,25 @@ class Cad(Command):
         for words in (["--smooth-below", "nan"], ["--smooth-below", "181"], ["--smooth-below", "-1"]):
             self.expect(2, "certify", BLOCK, *words)
 
+    def test_edges_of_no_face_are_curves(self):
+        def lines(name, *ends):
+            curves = [{"name": name, "degree": 1, "control_points": e} for e in ends]
+            model = self.write(name + ".json", json.dumps({"format": "patchproof-model", "version": 1, "units": "mm", "curves": curves}))
+            out = self.dir / (name + (".step" if name == "first" else ".brep"))
+            self.expect(0, "convert", model, out)
+            return out
+        first, second = lines("first", [[0, 0], [1, 0]]), lines("second", [[1, 0], [4, 0]], [[4, 0], [4, 0.5]])
+        document = self.report(0, first, second, "--angle", "0.01")
+        self.assertEqual([file["format"] for file in document["curve_files"]], ["step", "brep"])
+        self.assertEqual([join["edge_class"] for join in document["curve_joins"]], ["smooth", "sharp"])
+        self.assertEqual(document["curve_joins"][0]["a"]["file"], str(first))
+        self.expect(1, "certify", first, second, "--angle", "0.01", "--smooth-below", "180")
+        # A profile speaks of surfaces: of curves alone it cannot be passed.
+        self.expect(3, "certify", second, "--profile", "vda4955")
+        # Back to JSON: the lines are curves again.
+        self.expect(0, "convert", second, self.dir / "back.json")
+        self.assertEqual(len(json.loads((self.dir / "back.json").read_text())["curves"]), 2)
+
     def test_the_bytes_do_not_depend_on_the_jobs(self):
         self.assertEqual(*(self.expect(0, "certify", BLOCK, "--json", "-", "--jobs", n).stdout for n in (1, 4)))
 

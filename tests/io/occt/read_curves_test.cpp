@@ -8,8 +8,12 @@
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierCurve.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <gp_Circ.hxx>
+
+#include <cmath>
+#include <random>
 
 #include "io/occt/parts.h"
 #include "patchproof/io/curve_files.h"
@@ -111,6 +115,52 @@ TEST_F(CadFiles, EdgesBesideFacesAndFilesWithoutEither) {
   const Result<CadModel> line = read_cad_model(write_brep(BRepBuilderAPI_MakeEdge(endless).Edge()));
   ASSERT_FALSE(line);
   EXPECT_NE(line.error().message.find("infinite"), std::string::npos) << line.error().text();
+}
+
+// Open CASCADE's own derivatives, at the ends of edges of random splines that meet.
+TEST_F(CadFiles, AnglesAndCurvaturesAreThoseThatOpenCascadeFinds) {
+  std::mt19937 engine(20240229);
+  std::uniform_real_distribution<double> number(-3, 3);
+  for (int trial = 0; trial < 20; ++trial) {
+    opencascade::handle<Geom_BezierCurve> curves[2];
+    gp_Pnt meet(number(engine), number(engine), number(engine));
+    for (int k = 0; k < 2; ++k) {
+      TColgp_Array1OfPnt poles(1, 5);
+      TColStd_Array1OfReal weights(1, 5);
+      for (int i = 1; i <= 5; ++i) {
+        poles(i) = gp_Pnt(number(engine), number(engine), number(engine));
+        weights(i) = 1 + std::fabs(number(engine));
+      }
+      poles(k == 0 ? 5 : 1) = meet;
+      curves[k] = trial % 2 ? new Geom_BezierCurve(poles, weights) : new Geom_BezierCurve(poles);
+    }
+    TopoDS_Compound both;
+    BRep_Builder builder;
+    builder.MakeCompound(both);
+    for (const auto& curve : curves) builder.Add(both, BRepBuilderAPI_MakeEdge(curve).Edge());
+    const Report report = certify_cad(read(write_brep(both)));
+    ASSERT_EQ(report.curves->joins.size(), 1u);
+    const CurveCertificate& c = report.curves->joins[0].certificate;
+    gp_Pnt point;
+    gp_Vec d1[2], d2[2], curvature[2];
+    for (int k = 0; k < 2; ++k) {
+      curves[k]->D2(k == 0 ? 1 : 0, point, d1[k], d2[k]);
+      curvature[k] = (d2[k] - d1[k] * (d2[k].Dot(d1[k]) / d1[k].SquareMagnitude())) / d1[k].SquareMagnitude();
+    }
+    const auto agrees = [](const std::optional<Enclosure>& ours, double theirs) {
+      ASSERT_TRUE(ours);
+      EXPECT_LE(ours->lower, theirs * (1 + 1e-11));
+      EXPECT_GE(ours->upper, theirs * (1 - 1e-11));
+    };
+    agrees(c.angle, d1[0].Angle(d1[1]) * 180 / M_PI);
+    agrees(c.second_angle, d2[0].Angle(d2[1]) * 180 / M_PI);
+    agrees(c.speed_ratio, d1[1].Magnitude() / d1[0].Magnitude());
+    agrees(c.first_difference, (d1[0] - d1[1]).Magnitude());
+    agrees(c.second_difference, (d2[0] - d2[1]).Magnitude());
+    agrees(c.curvature[0], curvature[0].Magnitude());
+    agrees(c.curvature[1], curvature[1].Magnitude());
+    agrees(c.curvature_difference, (curvature[0] - curvature[1]).Magnitude());
+  }
 }
 
 // TiGL's getEdgeContinuity compares the directions of the first and of the second derivatives, within 1e-7 radians: it says C2 for the
