@@ -4,15 +4,17 @@
 #include <exception>
 
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 
 int main(int argc, char** argv) {
   using namespace patchproof::cli;
+  end_cleanly_on_signals();
   CLI::App app{"patchproof: proves how the patches of a model join", "patchproof"};
   app.set_version_flag("--version", "patchproof " PATCHPROOF_VERSION);
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 everything proven or within, 1 something refuted or exceeds, 2 bad input or usage,\n"
-      "3 undecided remains. Formats: docs/formats.md.");
+      "3 undecided remains, 130 interrupted. Formats: docs/formats.md.");
   int exit_code = kProven;
   add_certify(app, exit_code);
   add_evaluate(app, exit_code);

@@ -6,8 +6,10 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 
 namespace patchproof::cli {
 
@@ -44,6 +46,8 @@ int write_output(const std::string& path, const std::string& text) {
     if (!special) std::remove(target.c_str());
     return report_error(error);
   };
+  std::optional<Unfinished> unfinished;
+  if (!special) unfinished.emplace(target);
   std::FILE* file = std::fopen(target.c_str(), "wb");
   if (!file) return failed();
   const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();

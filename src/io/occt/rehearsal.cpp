@@ -2,6 +2,9 @@
 #include "rehearsal.h"
 
 #include <fcntl.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +15,18 @@
 namespace patchproof::occt {
 namespace {
 
-[[noreturn]] void child(const std::function<void()>& work, unsigned seconds) {
+// Ends with its parent, however that ends: nobody would wait for it any more.
+void end_with_parent([[maybe_unused]] pid_t parent) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(0);
+#endif
+}
+
+[[noreturn]] void child(const std::function<void()>& work, unsigned seconds, pid_t parent) {
+  end_with_parent(parent);
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
@@ -30,8 +44,8 @@ namespace {
 }  // namespace
 
 Rehearsal rehearse(const std::function<void()>& work, unsigned seconds) {
-  const pid_t id = fork();
-  if (id == 0) child(work, seconds);
+  const pid_t parent = getpid(), id = fork();
+  if (id == 0) child(work, seconds, parent);
   if (id < 0) return Rehearsal::fine;
   int status = 0;
   while (waitpid(id, &status, 0) < 0)

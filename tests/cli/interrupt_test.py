@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""interrupt_test.py PROGRAM SOURCE_DIR: Ctrl-C and its like leave no half-written file, and no process behind."""
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.dont_write_bytecode = True  # the sources may be read-only
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
+from command import CUP, EXAMPLES, PROGRAM, Command
+
+BLOCK = EXAMPLES / "cad/block.step"
+PATIENCE = 60  # seconds; nothing here depends on how fast the machine is
+
+
+def with_default_signals():
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def wait_until(condition):
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError
+        time.sleep(0.002)
+
+
+def children(process):
+    return pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+
+
+def is_gone(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] in "ZX"
+    except (FileNotFoundError, ProcessLookupError):
+        return True
+
+
+class Interrupts(Command):
+    def start(self, *words):
+        process = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=with_default_signals)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
+
+    def writer(self, pipe, process):
+        """The writing end of the pipe, once the program reads from it."""
+        held = []
+
+        def opened():
+            self.assertIsNone(process.poll())
+            try:
+                held.append(os.open(pipe, os.O_WRONLY | os.O_NONBLOCK))
+            except OSError:  # nobody reads
+                return False
+            return True
+
+        wait_until(opened)
+        os.set_blocking(held[0], True)
+        return os.fdopen(held[0], "wb")
+
+    def pipe(self):
+        path = self.dir / "model.json"
+        os.mkfifo(path)
+        return path
+
+    def expect_interrupted(self, process, number):
+        process.send_signal(number)
+        out, err = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 128 + number, err)
+        self.assertEqual((out, err), (b"", b"patchproof: interrupted\n"))
+
+    def expect_files(self, *names):
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), sorted(names))
+
+    def test_while_a_model_is_read(self):
+        pipe, out = self.pipe(), self.dir / "report.json"
+        out.write_text("of yesterday")
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            for words in (["certify", CUP, pipe, "--json", out], ["convert", pipe, out]):
+                with self.subTest(words=words, number=number):
+                    process = self.start(*words)
+                    with self.writer(pipe, process):  # the program waits for the first bytes, to see what it is
+                        self.expect_interrupted(process, number)
+                    self.assertEqual(out.read_text(), "of yesterday")
+                    self.expect_files("model.json", "report.json")
+
+    def test_while_files_are_written(self):
+        """Whenever the signal comes: the old file, or the new one, and nothing else."""
+        out = self.dir / "out.json"
+        self.expect(0, "convert", CUP, out)
+        whole = out.read_bytes()
+        for attempt in range(20):
+            out.write_text("old")
+            process = self.start("convert", CUP, out)
+            wait_until(lambda: process.poll() is not None or len(list(self.dir.iterdir())) > 1 or out.read_bytes() != b"old"
+                       or attempt % 2 == 0)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=PATIENCE)
+            self.assertIn(process.returncode, (0, 130, -signal.SIGINT))  # the last: before the program began
+            self.assertIn(out.read_bytes(), (b"old", whole))
+            if process.returncode == 0:
+                self.assertEqual(out.read_bytes(), whole)
+            self.expect_files("out.json")
+
+    def test_a_file_that_cannot_be_written_whole(self):
+        out = self.dir / "out.json"
+        out.write_text("old")
+        done = self.expect(2, "convert", CUP, out, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000)))
+        self.assertIn(b"cannot be written", done.stderr)
+        self.assertEqual(out.read_text(), "old")
+        self.expect_files("out.json")
+
+    def test_what_is_ignored_stays_ignored(self):
+        pipe = self.pipe()
+        process = subprocess.Popen([PROGRAM, "convert", str(pipe), str(self.dir / "out.json")], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+        self.addCleanup(process.kill)
+        with self.writer(pipe, process) as model:
+            process.send_signal(signal.SIGINT)
+            model.write(b"{}")
+        process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 2)  # a pipe is no model
+
+    def test_the_first_reading_in_a_child_ends_too(self):
+        if not self.reads_step():
+            self.skipTest("STEP files are not read by this build")
+        for _ in range(100):
+            process = self.start("certify", BLOCK, "--json", self.dir / "report.json")
+            wait_until(lambda: children(process) or process.poll() is not None)
+            try:
+                child = int(children(process)[0])
+                os.kill(child, signal.SIGSTOP)  # now the program waits for it
+                break
+            except (IndexError, FileNotFoundError, ProcessLookupError):  # the child was faster
+                process.communicate(timeout=PATIENCE)
+        self.expect_interrupted(process, signal.SIGINT)
+        wait_until(lambda: is_gone(child))
+        self.expect_files()
+
+    def reads_step(self):
+        return subprocess.run([PROGRAM, "certify", str(BLOCK), "--quiet"], capture_output=True, timeout=PATIENCE).returncode == 0
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
