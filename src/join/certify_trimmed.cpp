@@ -81,6 +81,10 @@ Certificate certify_trimmed(const TrimmedJoin& join, const Request& request) {
   out.gap = enclosed(join, bounds.gap);
   out.angle = enclosed(join, bounds.angle);
   out.plane_angle = enclosed(join, bounds.plane_angle);
+  for (const TrimmedPole& pole : bounds.poles)
+    out.degenerate.push_back({pole.side, nearest_double(pole.begin), nearest_double(pole.end),
+                              pole.left_out ? "the normal is rounding errors; left out of the angle"
+                                            : "the normal vanishes; its limit is used"});
   out.orientation = out.angle.upper < 90   ? Orientation::smooth
                     : out.angle.lower > 90 ? Orientation::mixed  // somewhere above 90°; a cusp only if everywhere
                                            : Orientation::unknown;

@@ -19,6 +19,7 @@ struct Piece {
   Rational begin, end;
   int depth = 0;
   std::vector<DeviationPiece> gap, angle;  // one for each combination of polynomials that may be meant
+  bool left_out = false;                   // of the angles: beside a pole that rounding hides
 };
 
 // Bernstein coefficients on [−1, 1], the remainder in each.
@@ -45,6 +46,9 @@ class Bounder {
     for (int s = 0; s < 2; ++s)
       for (const bool end : {false, true})
         poles_[s][end] = pole_at(s == 0 ? join.a : join.b, end ? end_ : begin_, middle);
+    const Rational beside = (end_ - begin_) * from_double(kBesidePole);
+    first_ = is_hidden(0) ? Rational(begin_ + beside) : begin_;
+    last_ = is_hidden(1) ? Rational(end_ - beside) : end_;
     for (const TrimmedSide* side : {&join.a, &join.b})
       sides_.push_back({enclosed(apply(move, *side->surface)), &side->parameters, side->flipped,
                         has_unit_weights(side->parameters)});
@@ -56,6 +60,10 @@ class Bounder {
     out.gap = bound(Deviation::gap, 3);
     out.angle = bound(Deviation::angle, 2);
     out.plane_angle = bound(Deviation::plane_angle, 1);
+    for (int s = 0; s < 2; ++s)
+      for (const bool end : {false, true})
+        if (poles_[s][end].is_one)
+          out.poles.push_back({s == 0 ? 'a' : 'b', end ? last_ : begin_, end ? end_ : first_, is_hidden(end)});
     for (const Piece& piece : pieces_)
       for (const MovedSide& side : sides_)
         out.outside = std::max({out.outside, outside(side, piece.begin), outside(side, piece.end)});
@@ -64,6 +72,14 @@ class Bounder {
 
  private:
   static constexpr int kDepth = 40;  // that of slivers; pieces are not halved any more
+
+  static constexpr double kBesidePole = 0x1p-24;  // of the edge
+
+  // A pole where rounding has left a normal: at its end that points anywhere, and a little beside it as the surface does.
+  bool is_hidden(bool end) const {
+    return std::any_of(std::begin(poles_), std::end(poles_),
+                       [&](const Pole(&side)[2]) { return side[end].is_one && !side[end].zero; });
+  }
 
   // How far a parameter curve leaves its surface's domain at t, at least; exactly where it certainly does.
   static double outside(const MovedSide& side, const Rational& t) {
@@ -86,6 +102,7 @@ class Bounder {
     std::vector<Rational> all = join.a.parameters.knots().breaks();
     const std::vector<Rational> more = join.b.parameters.knots().breaks();
     all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), {first_, last_});
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     for (std::size_t i = 0; i + 1 < all.size(); ++i) add(all[i], all[i + 1], 0, pieces_);
@@ -98,7 +115,7 @@ class Bounder {
       check_deadline();
       add_pieces(begin, end, depth, out);
     } catch (const deadline_passed&) {
-      out.push_back({begin, end, kDepth, {}, {}});
+      out.push_back({begin, end, kDepth, {}, {}, end <= first_ || begin >= last_});
     }
   }
   void add_pieces(const Rational& begin, const Rational& end, int depth, std::vector<Piece>& out) {
@@ -120,8 +137,9 @@ class Bounder {
                       (runs[s].spans_u.size() > 1 && is_wide(runs[s].u, Direction::u)) ||
                       (runs[s].spans_v.size() > 1 && is_wide(runs[s].v, Direction::v));
     }
-    const bool at_begin = begin == begin_ && (poles_[0][0].is_one || poles_[1][0].is_one);
-    const bool at_end = end == end_ && (poles_[0][1].is_one || poles_[1][1].is_one);
+    const bool left_out = end <= first_ || begin >= last_;
+    const bool at_begin = !left_out && begin == begin_ && (poles_[0][0].is_one || poles_[1][0].is_one);
+    const bool at_end = !left_out && end == end_ && (poles_[0][1].is_one || poles_[1][1].is_one);
     if (at_begin && at_end) ambiguous = worth_halving = true;
     const int limit = pieces_made_ > budget_.nodes ? depth : kDepth;
     if (ambiguous && worth_halving && depth < limit) {
@@ -139,7 +157,7 @@ class Bounder {
       return;
     }
     ++pieces_made_;
-    Piece piece{begin, end, depth, {}, {}};
+    Piece piece{begin, end, depth, {}, {}, left_out};
     const bool pole = at_begin || at_end;
     const std::vector<Frame> all_a = frames(sides_[0], runs[0]), all_b = frames(sides_[1], runs[1]);
     for (const Frame& a : all_a) {
@@ -155,25 +173,6 @@ class Bounder {
     }
     if (pole) piece.angle = at_pole(runs, t, middle, at_end);
     out.push_back(std::move(piece));
-  }
-
-  // A box that every positive combination of n and of the values in the box `rates` points into, from the origin: n is first
-  // made about as long as they are.
-  static Vec<Interval, 3> cone(const Vec<Interval, 3>& rates, const Vec<Rational, 3>& n) {
-    double longest = 0, own = 0;
-    for (int c = 0; c < 3; ++c) {
-      longest = std::max({longest, rates[c].sup(), -rates[c].inf()});
-      own = std::max(own, std::fabs(nearest_double(n[c])));
-    }
-    const Interval any(-1.0, 1.0);
-    if (!(own > 0 && longest > 0 && longest / own < kInfinity)) return {{any, any, any}};  // beyond doubles
-    Vec<Interval, 3> out = rates;
-    const Rational scale = from_double(longest / own);
-    for (int c = 0; c < 3; ++c) {
-      const Interval x = enclose(Rational(scale * n[c]));
-      out[c] = Interval(std::min(x.inf(), out[c].inf()), std::max(x.sup(), out[c].sup()));
-    }
-    return out;
   }
 
   // About where a parameter curve crosses a knot line between begin and end, found by bisection in double. Nothing depends
@@ -207,10 +206,8 @@ class Bounder {
   std::vector<DeviationPiece> at_pole(const Run (&runs)[2], const Model& t, const Rational& inside, bool at_end) const {
     std::vector<Vec<Interval, 3>> normals[2];
     for (int s = 0; s < 2; ++s) {
-      if (const Pole& pole = poles_[s][at_end]; pole.is_one) {
+      if (poles_[s][at_end].is_one) {
         normals[s] = normal_rates(sides_[s], runs[s], t, inside, at_end);
-        if (!pole.zero)
-          for (Vec<Interval, 3>& n : normals[s]) n = cone(n, pole.normal);
         continue;
       }
       for (const Frame& frame : frames(sides_[s], runs[s]))
@@ -245,6 +242,7 @@ class Bounder {
     Budget one = budget_;
     one.nodes = 64;
     const auto push = [&](Piece piece) {
+      if (piece.left_out && what != Deviation::gap) return;
       const auto& forms = what == Deviation::gap ? piece.gap : piece.angle;
       double upper = forms.empty() ? worst : 0, lower = forms.empty() ? 0 : kInfinity, at = 0;
       for (const DeviationPiece& form : forms) {
@@ -289,7 +287,8 @@ class Bounder {
   std::vector<MovedSide> sides_;
   Rational begin_, end_;
   std::vector<Piece> pieces_;
-  Pole poles_[2][2];  // side, end
+  Pole poles_[2][2];       // side, end
+  Rational first_, last_;  // between these the angles are bounded
   double size_ = 0;
   int pieces_made_ = 0;
 };
@@ -365,7 +364,7 @@ TrimmedBounds bound_trimmed(const TrimmedJoin& join, const Budget& budget) {
     return Bounder(join, budget).bounds();
   } catch (const deadline_passed&) {  // before the edge was cut into pieces
     const Rational& begin = join.a.parameters.knots().domain_begin();
-    return {{0, kInfinity, begin, false}, {0, 180, begin, false}, {0, 90, begin, false}, 0};
+    return {{0, kInfinity, begin, false}, {0, 180, begin, false}, {0, 90, begin, false}, 0, {}};
   }
 }
 

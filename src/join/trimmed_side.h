@@ -189,22 +189,18 @@ inline Vec<Rational, 3> end_normal(const TrimmedSide& side, const Rational& t) {
 inline Rational square_of(const Vec<Rational, 3>& v) { return dot(v, v); }
 
 // A pole: an end of the edge where a side's normal is zero, or so short beside the one amid the edge that only rounding
-// keeps it from zero. Then n(t) = n(t_0) + (t − t_0) n'(ξ) points into the cone of n(t_0) and the values of n'.
+// keeps it from zero. Where it is zero, n(t) = (t − t_0) n'(ξ) points as a value of n' does.
 struct Pole {
   bool is_one = false;
   bool zero = true;
-  Vec<Rational, 3> normal;  // n(t_0)
 };
 // COST of an ordinary end that of intervals; of a pole, and of what may be one, exact values.
 inline Pole pole_at(const TrimmedSide& side, const Rational& end, const Rational& middle) {
   const Rational short_square = from_double(0x1p-60);
   const auto a = enclosed_end(side, end), b = enclosed_end(side, middle);
   if (a && b && dot(a->normal, a->normal).inf() > (Interval(0x1p-60) * dot(b->normal, b->normal)).sup()) return {};
-  Pole out;
-  out.normal = end_normal(side, end);
-  out.zero = detail::is_zero_point(out.normal);
-  out.is_one = square_of(out.normal) <= short_square * square_of(end_normal(side, middle));
-  return out;
+  const Vec<Rational, 3> normal = end_normal(side, end);
+  return {square_of(normal) <= short_square * square_of(end_normal(side, middle)), detail::is_zero_point(normal)};
 }
 
 }  // namespace patchproof::trimmed

@@ -235,5 +235,78 @@ TEST_F(TrimmedJoins, Law4_WholeEdgesGoTheExactWay) {
   EXPECT_FALSE(to_isoparametric({{&a, inner, false}, {&b, on_b, false}}));
 }
 
+// The sphere about 0, 2v (1 − u², 2u) and 1 − v² over (1 + u²)(1 + v²): a pole at v = 0, whose control points `slip` moves
+// apart.
+Patch sphere_with_pole(const Rational& slip = Rational(0)) {
+  using Power = std::array<int, 3>;  // coefficients of 1, u, u²
+  const auto bernstein = [](const Power& a) {
+    return std::array<Rational, 3>{q(a[0]), q(a[0]) + q(a[1], 2), q(a[0] + a[1] + a[2])};
+  };
+  const auto c = bernstein({1, 0, -1}), s = bernstein({0, 2, 0}), w = bernstein({1, 0, 1}), r = bernstein({0, 2, 0});
+  std::vector<Vec<Rational, 4>> net;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) net.push_back({{c[i] * r[j], s[i] * r[j], w[i] * c[j], w[i] * w[j]}});
+  net[0] = net[0] + Vec<Rational, 4>{{slip, q(0), -slip, q(0)}};
+  const auto k = KnotVector<Rational>::bezier(2);
+  return Patch(k, k, net);
+}
+
+// From the pole along u = 1/2, at v = (t + t²)/2: the face's normal stays in the meridian's plane.
+const Curve& meridian() {
+  static const Curve curve = Curve::bezier({uv(q(1, 2), q(0)), uv(q(1, 2), q(1, 4)), uv(q(1, 2), q(1))});
+  return curve;
+}
+
+TEST_F(TrimmedJoins, Law1_AtAPoleTheLimitIsTaken) {
+  const Patch sphere = sphere_with_pole(), other = elevate_degree(sphere, Direction::u, 1);
+  const auto k = KnotVector<Rational>::bezier(1);
+  const Patch plane(k, k,  // of the meridian: perpendicular to the sphere
+                    {{{q(0), q(0), q(0), q(1)}},
+                     {{q(0), q(0), q(1), q(1)}},
+                     {{q(3, 5), q(4, 5), q(0), q(1)}},
+                     {{q(3, 5), q(4, 5), q(1), q(1)}}});
+  const Curve across = Curve::bezier({uv(q(0), q(1)), uv(q(1), q(0))});
+  const TrimmedBounds smooth = bound_trimmed({{&sphere, meridian(), false}, {&other, meridian(), false}});
+  // Beside the pole a normal shrinks, but not its rounding errors: they leave about √2⁻⁵², 1e-6°.
+  EXPECT_LE(smooth.angle.upper, 1e-5);
+  ASSERT_EQ(smooth.poles.size(), 2u);
+  for (const TrimmedPole& pole : smooth.poles) {
+    EXPECT_FALSE(pole.left_out);
+    EXPECT_TRUE(pole.begin == q(0) && pole.end == q(0));
+  }
+  const TrimmedBounds sharp = bound_trimmed({{&sphere, meridian(), false}, {&plane, across, false}});
+  EXPECT_LE(sharp.angle.lower, 90);
+  EXPECT_GE(sharp.angle.lower, 89.9);
+  EXPECT_GE(sharp.angle.upper, 90);
+  EXPECT_LE(sharp.angle.upper, 90.9);
+  ASSERT_EQ(sharp.poles.size(), 1u);
+  EXPECT_EQ(sharp.poles[0].side, 'a');
+}
+
+// In files the points of a pole are a rounding error apart: exactly at the pole the normal points anywhere.
+TEST_F(TrimmedJoins, APoleHiddenByRoundingIsLeftOutAndSaid) {
+  const Patch sphere = sphere_with_pole(), slipped = sphere_with_pole(from_double(0x1p-52));
+  std::vector<Vec<Rational, 3>> points(meridian().points().rbegin(), meridian().points().rend());
+  const Curve backwards(meridian().knots(), points);
+  for (const bool reversed : {false, true}) {
+    const Curve& curve = reversed ? backwards : meridian();
+    const TrimmedJoin join{{&slipped, curve, false}, {&sphere, curve, false}};
+    const TrimmedBounds bounds = bound_trimmed(join);
+    EXPECT_LE(bounds.angle.upper, 1e-4);
+    ASSERT_EQ(bounds.poles.size(), 2u);
+    for (const TrimmedPole& pole : bounds.poles) {
+      EXPECT_TRUE(pole.left_out);
+      EXPECT_EQ(pole.end - pole.begin, from_double(0x1p-24));
+      EXPECT_EQ(reversed ? pole.end : pole.begin, reversed ? q(1) : q(0));
+    }
+    const Certificate certificate = certify_trimmed(join);
+    ASSERT_EQ(certificate.degenerate.size(), 2u);
+    EXPECT_EQ(certificate.degenerate[0].what, "the normal is rounding errors; left out of the angle");
+    // Just beside what is left out, exact normals are as near as the bounds say.
+    const Rational beside = reversed ? Rational(q(1) - from_double(0x1p-23)) : from_double(0x1p-23);
+    EXPECT_LE(at(join, beside).angle, bounds.angle.upper + 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace patchproof::test

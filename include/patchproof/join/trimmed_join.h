@@ -12,6 +12,9 @@
 // A whole edge along which both parameter curves are straight, on an edge of its surface's domain, and run at constant speed is
 // an isoparametric join (join.h): to_isoparametric recognises it, and certify_join decides it exactly.
 //
+// Where a normal vanishes at an end, its limit is taken. Where it would, but for rounding (2⁻³⁰ of its length amid the edge),
+// it points anywhere at the end itself: that end, 2⁻²⁴ of the edge, is left out of the angles, and said in `poles`.
+//
 // REQUIRES  denominators without a zero on the domains; parameter curves over the same range. Where a curve leaves its
 //           surface's domain (by rounding), the surface's outermost polynomials are continued: see `outside`.
 // ENSURES   (1) lower ≤ sup ≤ upper; lower is attained at `t`;  (2) exactly equal edges give lower = 0, and an upper bound
@@ -23,6 +26,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "patchproof/join/certificate.h"
 #include "patchproof/join/deviation.h"
@@ -50,9 +54,17 @@ struct TrimmedBound {
   bool converged = true;  // upper − lower ≤ 1 % of upper, or upper below 2⁻³⁶ of the edge's size, 2⁻³⁴ degrees
 };
 
+// An end of the edge where a side has no normal.
+struct TrimmedPole {
+  char side;            // 'a' or 'b'
+  Rational begin, end;  // of t: the end itself, or the range that is left out of the angles
+  bool left_out;
+};
+
 struct TrimmedBounds {
   TrimmedBound gap, angle, plane_angle;
   double outside = 0;  // how far a parameter curve leaves the domain of its surface, at least: found where pieces end
+  std::vector<TrimmedPole> poles;
 };
 
 // REQUIRES (debug) a RoundingGuard alive.
