@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/io/cad.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -89,6 +90,10 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
   const std::vector<Pair> pairs = pairs_of(model);
   report.joins.resize(pairs.size());
   std::atomic<std::size_t> done{0};
+  // Otherwise more jobs than processors make TBB talk on standard error.
+  const tbb::global_control threads(
+      tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(options.jobs > 0 ? options.jobs : std::max(1, tbb::this_task_arena::max_concurrency())));
   tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
