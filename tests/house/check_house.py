@@ -29,7 +29,7 @@ MAY_INCLUDE = {
     "c_api": BELOW_IO + ["io"],
     "cli": BELOW_IO + ["io", "c_api"],
 }
-ROOM_OF_ROOT_FILE = {"error": "base", "contract": "base", "vec": "base", "instruction_set": "base", "c_api": "c_api"}
+ROOM_OF_ROOT_FILE = {"error": "base", "contract": "base", "deadline": "base", "vec": "base", "instruction_set": "base", "c_api": "c_api"}
 TEMPLATE_ROOMS = ["spline", "patch", "join"]
 SCANNED = ["include", "src", "kernels", "tests", "examples", "validation", "cmake", "docs", ".ci"]
 SOURCE = {".h", ".hpp", ".cpp", ".c", ".py", ".cmake"}
@@ -38,7 +38,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
 NUMBER_LIBRARY = re.compile(r"^(gmp(xx)?\.h|mpfr\.h|mpfi\w*\.h|boost/.*|CGAL/.*)$")
 OCCT = re.compile(r"\.hxx$")
 OCCT_PLACES = {("src", "io"), ("tests", "io"), ("validation", "peers"), ("validation", "bench"),
-               ("validation", "verdicts"), ("examples", "cad")}
+               ("validation", "verdicts"), ("validation", "shell"), ("examples", "cad")}
 FLOAT = re.compile(r"(?<![\w.])(?:\d[\d']*\.\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+"
                    r"|0[xX][\da-fA-F.]+[pP][+-]?\d+)[fFlL]?(?!\w)")
 EPSILON = re.compile(r"\b\w*(?:epsilon|EPSILON)\w*|\b(?:eps|EPS|kEps)\b")
