@@ -52,6 +52,7 @@ class Bounder {
     for (const TrimmedSide* side : {&join.a, &join.b})
       sides_.push_back({enclosed(apply(move, *side->surface)), &side->parameters, side->flipped,
                         has_unit_weights(side->parameters)});
+    const DeadlineScope most(share_of_time(3, 2));  // the rest is for looking at the pieces
     collect(join);
   }
 
@@ -64,9 +65,11 @@ class Bounder {
       for (const bool end : {false, true})
         if (poles_[s][end].is_one)
           out.poles.push_back({s == 0 ? 'a' : 'b', end ? last_ : begin_, end ? end_ : first_, is_hidden(end)});
-    for (const Piece& piece : pieces_)
+    for (const Piece& piece : pieces_) {
+      if (has_deadline_passed()) break;
       for (const MovedSide& side : sides_)
         out.outside = std::max({out.outside, outside(side, piece.begin), outside(side, piece.end)});
+    }
     return out;
   }
 
@@ -79,6 +82,14 @@ class Bounder {
   bool is_hidden(bool end) const {
     return std::any_of(std::begin(poles_), std::end(poles_),
                        [&](const Pole(&side)[2]) { return side[end].is_one && !side[end].zero; });
+  }
+
+  using Clock = DeadlineScope::Clock;
+  // When so many of so many parts of the time that is left are over.
+  Clock::time_point share_of_time(int all, int some = 1) const {
+    if (budget_.deadline == Clock::time_point::max()) return budget_.deadline;
+    const Clock::time_point now = Clock::now();
+    return now + (budget_.deadline - now) / all * some;
   }
 
   // How far a parameter curve leaves its surface's domain at t, at least; exactly where it certainly does.
@@ -105,6 +116,7 @@ class Bounder {
     all.insert(all.end(), {first_, last_});
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
+    allowed_ = budget_.nodes + 4 * static_cast<int>(all.size());
     for (std::size_t i = 0; i + 1 < all.size(); ++i) add(all[i], all[i + 1], 0, pieces_);
   }
 
@@ -141,7 +153,7 @@ class Bounder {
     const bool at_begin = !left_out && begin == begin_ && (poles_[0][0].is_one || poles_[1][0].is_one);
     const bool at_end = !left_out && end == end_ && (poles_[0][1].is_one || poles_[1][1].is_one);
     if (at_begin && at_end) ambiguous = worth_halving = true;
-    const int limit = pieces_made_ > budget_.nodes ? depth : kDepth;
+    const int limit = pieces_made_ > allowed_ ? depth : kDepth;
     if (ambiguous && worth_halving && depth < limit) {
       // A knot line that is crossed leaves a sliver about the crossing in which both polynomials are taken.
       if (const auto crossing = crossing_of(runs, begin, end)) {
@@ -231,9 +243,7 @@ class Bounder {
 
   // Of the time that is left, one of so many shares.
   TrimmedBound bound(Deviation what, int shares) {
-    using Clock = DeadlineScope::Clock;
-    const bool limited = budget_.deadline != Clock::time_point::max();
-    const DeadlineScope share(limited ? Clock::now() + (budget_.deadline - Clock::now()) / shares : budget_.deadline);
+    const DeadlineScope share(share_of_time(shares));
     const double worst = what == Deviation::gap ? kInfinity : what == Deviation::angle ? 180 : 90;
     const double floor = what == Deviation::gap ? std::ldexp(size_, -36) : 0x1p-34;  // degrees: 6e-11
     TrimmedBound out{0, 0, begin_, true};
@@ -243,6 +253,10 @@ class Bounder {
     one.nodes = 64;
     const auto push = [&](Piece piece) {
       if (piece.left_out && what != Deviation::gap) return;
+      if (Clock::now() > budget_.deadline) {  // even looking at a thousand pieces takes time
+        settled = worst;
+        return;
+      }
       const auto& forms = what == Deviation::gap ? piece.gap : piece.angle;
       double upper = forms.empty() ? worst : 0, lower = forms.empty() ? 0 : kInfinity, at = 0;
       for (const DeviationPiece& form : forms) {
@@ -268,7 +282,7 @@ class Bounder {
     };
     int halvings = 0;
     while (!queue.empty() && !is_tight(queue.top().upper) && queue.top().upper > settled) {
-      if (++halvings > budget_.nodes) break;
+      if (++halvings > allowed_) break;
       const Piece& piece = queue.top().piece;
       const Rational middle = (piece.begin + piece.end) / Rational(2);
       std::vector<Piece> halves;
@@ -290,7 +304,7 @@ class Bounder {
   Pole poles_[2][2];       // side, end
   Rational first_, last_;  // between these the angles are bounded
   double size_ = 0;
-  int pieces_made_ = 0;
+  int allowed_ = 0, pieces_made_ = 0;  // halvings; pieces
 };
 
 // The edge of its domain that a side runs along, and its parameter along it at both ends.

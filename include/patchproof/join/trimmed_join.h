@@ -21,7 +21,8 @@
 //           of the size of the rounding errors;  (3) swapping or reversing both sides gives the same enclosures up to
 //           rounding;  (4) where to_isoparametric answers, certify_join's bounds and these overlap.
 // ERRORS    none: what is not bounded ends as upper = +infinity (gap) or 180 (angle), not converged.
-// COST      about 0.3 ms for each piece of a pair of bicubic surfaces; budget.nodes halvings at most.
+// COST      about 0.3 ms for each piece of a pair of bicubic surfaces; budget.nodes halvings at most, and
+//           four for each knot of the parameter curves.
 // TEST      tests/join/trimmed_join_test.cpp checks (1)–(4).
 #pragma once
 
