@@ -24,6 +24,25 @@ const char* to_string(ErrorCode code) {
     case ErrorCode::curves_apart: return "curves_apart";
     case ErrorCode::twists_differ: return "twists_differ";
     case ErrorCode::usage: return "usage";
+    case ErrorCode::bad_weight: return "bad_weight";
+    case ErrorCode::not_c1: return "not_c1";
+    case ErrorCode::vanishing_tangent: return "vanishing_tangent";
+    case ErrorCode::ends_apart: return "ends_apart";
+    case ErrorCode::bad_t_node: return "bad_t_node";
+    case ErrorCode::wrong_side_count: return "wrong_side_count";
+    case ErrorCode::bad_side: return "bad_side";
+    case ErrorCode::side_ends_nowhere: return "side_ends_nowhere";
+    case ErrorCode::open_loop: return "open_loop";
+    case ErrorCode::uneven_cover: return "uneven_cover";
+    case ErrorCode::unused_edge: return "unused_edge";
+    case ErrorCode::parallel_tangents: return "parallel_tangents";
+    case ErrorCode::control_vector_outside: return "control_vector_outside";
+    case ErrorCode::control_vector_twice: return "control_vector_twice";
+    case ErrorCode::control_vector_missing: return "control_vector_missing";
+    case ErrorCode::control_vectors_bent: return "control_vectors_bent";
+    case ErrorCode::control_vector_along: return "control_vector_along";
+    case ErrorCode::control_vector_differs: return "control_vector_differs";
+    case ErrorCode::basis_along_edge: return "basis_along_edge";
   }
   return "unknown";
 }

@@ -89,7 +89,8 @@ Result<Input> read_input(const std::string& path, Decimals decimals, [[maybe_unu
   }
   Result<ModelFile> file = read_model(path, decimals);
   if (!file) return file.error();
-  if (std::visit([](const auto& model) { return model.patches.empty() && model.curves.empty(); }, file->model))
+  if (std::visit([](const auto& m) { return m.patches.empty() && m.gregory_patches.empty() && m.curves.empty(); },
+                 file->model))
     return Error{ErrorCode::wrong_count, path, "the model has neither patches nor curves: no joins to certify", ""};
   return Input(std::move(*file));
 }
@@ -107,7 +108,8 @@ std::optional<CurveFile> only_curves(const Input& input) {
     return curves_of(*cad);
   }
   const ModelFile& file = std::get<ModelFile>(input);
-  if (!std::visit([](const auto& model) { return model.patches.empty(); }, file.model)) return std::nullopt;
+  if (!std::visit([](const auto& m) { return m.patches.empty() && m.gregory_patches.empty(); }, file.model))
+    return std::nullopt;
   return curves_of(file);
 }
 

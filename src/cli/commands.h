@@ -17,6 +17,7 @@ void add_certify(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
+void add_fill(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 

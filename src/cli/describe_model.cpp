@@ -220,6 +220,18 @@ std::string describe_patch(std::size_t index, const ModelPatch<T>& p) {
   return text;
 }
 
+template <ExactField T>
+std::string describe_gregory(std::size_t index, const ModelGregoryPatch<T>& p) {
+  const auto weights_are_one = [](const BsplinePatch<T, 4>& surface) {
+    return std::all_of(surface.net().begin(), surface.net().end(), [](const auto& h) { return h[3] == T(1); });
+  };
+  const bool polynomial = weights_are_one(p.patch.u_surface()) && weights_are_one(p.patch.v_surface());
+  return fmt::format("patch {}{}: NURBS boundary Gregory patch, {} edges, w > 0 everywhere\n", index, quoted(p.name),
+                     polynomial ? "polynomial" : "rational") +
+         knot_lines(p.patch.v_surface().knots(Direction::u), "row", "  u: ", "     ") +
+         knot_lines(p.patch.u_surface().knots(Direction::v), "column", "  v: ", "     ");
+}
+
 // A solid of a file: its control patches are described as patches of the model.
 template <ExactField T>
 std::string describe_solid(std::size_t index, const ModelSolid<T>& s, const Model<T>& model) {
@@ -241,6 +253,8 @@ std::string describe_all(const Model<T>& model) {
   std::string text;
   for (std::size_t i = 0; i < model.curves.size(); ++i) text += describe_curve(i, model.curves[i]);
   for (std::size_t i = 0; i < model.patches.size(); ++i) text += describe_patch(i, model.patches[i]);
+  for (std::size_t i = 0; i < model.gregory_patches.size(); ++i)
+    text += describe_gregory(model.patches.size() + i, model.gregory_patches[i]);
   for (std::size_t i = 0; i < model.solids.size(); ++i) text += describe_solid(i, model.solids[i], model);
   if (!model.joins.empty()) text += plural(model.joins.size(), "join") + " declared in the file\n";
   return text;

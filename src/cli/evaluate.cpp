@@ -75,27 +75,77 @@ Result<T> parameter(const char* name, const std::string& text, const KnotVector<
   return x;
 }
 
+// The parameters of a patch, "U,V".
 template <ExactField T>
-Result<std::vector<Evaluation::Row>> evaluate_patch(const BsplinePatch<T, 4>& surface, const Options& o) {
-  const KnotVector<T>&knots_u = surface.knots(Direction::u), &knots_v = surface.knots(Direction::v);
+Result<std::pair<T, T>> two_parameters(const Options& o, const KnotVector<T>& knots_u, const KnotVector<T>& knots_v) {
   const std::size_t comma = o.at.find(',');
   if (comma == std::string::npos) return Error{ErrorCode::usage, "--at", "two parameters U,V are needed", o.at};
   const Result<T> u = parameter("u", o.at.substr(0, comma), knots_u);
   if (!u) return u.error();
   const Result<T> v = parameter("v", o.at.substr(comma + 1), knots_v);
   if (!v) return v.error();
+  return std::pair(*u, *v);
+}
+
+template <ExactField T>
+Result<std::vector<Evaluation::Row>> evaluate_patch(const BsplinePatch<T, 4>& surface, const Options& o) {
+  const KnotVector<T>&knots_u = surface.knots(Direction::u), &knots_v = surface.knots(Direction::v);
+  const auto at = two_parameters(o, knots_u, knots_v);
+  if (!at) return at.error();
+  const auto& [u, v] = *at;
   const int k = o.derivatives;
-  if (o.scalar == "rational") return rows(rational_derivatives(surface, *u, *v, k, k, o.side(), o.side()), k);
-  const int span_u = knots_u.find_span(*u, o.side()), span_v = knots_v.find_span(*v, o.side());
+  if (o.scalar == "rational") return rows(rational_derivatives(surface, u, v, k, k, o.side(), o.side()), k);
+  const int span_u = knots_u.find_span(u, o.side()), span_v = knots_v.find_span(v, o.side());
   if (o.scalar == "interval") {
     const RoundingGuard guard;
-    return rows(rational_derivatives(partial_derivatives_in_span<Interval>(surface, span_u, span_v, embed<Interval>(*u),
-                                                                           embed<Interval>(*v), k, k)),
+    return rows(rational_derivatives(partial_derivatives_in_span<Interval>(surface, span_u, span_v, embed<Interval>(u),
+                                                                           embed<Interval>(v), k, k)),
                 k);
   }
-  return rows(rational_derivatives(partial_derivatives_in_span<double>(surface, span_u, span_v, nearest_double(*u),
-                                                                       nearest_double(*v), k, k)),
+  return rows(rational_derivatives(partial_derivatives_in_span<double>(surface, span_u, span_v, nearest_double(u),
+                                                                       nearest_double(v), k, k)),
               k);
+}
+
+template <Ring R, ExactField T>
+std::vector<Evaluation::Row> series_rows(const GregoryPatch<T>& patch, const GregorySpans& spans, const R& u,
+                                         const R& v, int order) {
+  using Series = PowerSeries<R, 2>;
+  const Vec<Series, 3> s =
+      evaluate_in_spans<Series>(patch, spans, Series::variable(0, u, order), Series::variable(1, v, order));
+  std::vector<Vec<R, 3>> values;
+  for (int k = 0; k <= order; ++k)
+    for (int l = 0; l <= order; ++l) {
+      Vec<R, 3> x;
+      if (k + l <= order)
+        for (int c = 0; c < 3; ++c) x[c] = s[c].derivative({k, l});
+      values.push_back(x);
+    }
+  return rows(PartialDerivatives<R, 3>(order, order, std::move(values)), order);
+}
+
+template <ExactField T>
+Result<std::vector<Evaluation::Row>> evaluate_patch(const GregoryPatch<T>& patch, const Options& o) {
+  const auto at = two_parameters(o, patch.v_surface().knots(Direction::u), patch.u_surface().knots(Direction::v));
+  if (!at) return at.error();
+  const auto& [u, v] = *at;
+  const int k = o.derivatives;
+  if ((u == T(0) || u == T(1)) && (v == T(0) || v == T(1))) {
+    if (k > 1)
+      return Error{ErrorCode::unsupported, "--derivatives",
+                   "a Gregory patch has no second derivatives at its corners, only limits along the edges", o.at};
+    const SurfaceFrame<T> s = frame(patch, u, v);
+    std::vector<Evaluation::Row> out = rows(PartialDerivatives<T, 3>(1, 1, {s.point, s.dv, s.du, {}}), k);
+    return out;
+  }
+  const GregorySpans spans = find_spans(patch, u, v, o.side(), o.side());
+  if (o.scalar == "rational") return series_rows<T>(patch, spans, u, v, k);
+  if (o.scalar == "interval") {
+    const RoundingGuard guard;
+    return series_rows<Interval>(patch, spans, embed<Interval>(u), embed<Interval>(v), k);
+  }
+  const auto [x, y] = detail::off_the_corners(nearest_double(u), nearest_double(v));
+  return series_rows<double>(patch, spans, x, y, k);
 }
 
 template <Ring R, ExactField T>
@@ -187,16 +237,19 @@ Result<Evaluation> evaluate_model(const Model<T>& model, const Options& o) {
     if (!rows) return rows.error();
     return Evaluation{"solid", *o.solid, std::move(*rows)};
   }
-  const bool curve = o.curve || (!o.patch && model.patches.empty());
+  const std::size_t patches = model.patches.size(), all = patches + model.gregory_patches.size();
+  const bool curve = o.curve || (!o.patch && all == 0);
   if (curve && !o.curve && model.curves.size() > 1)
     return Error{ErrorCode::usage, "evaluate",
                  fmt::format("the model has curves 0 to {}: --curve says which", model.curves.size() - 1), ""};
   const int index = curve ? o.curve.value_or(0) : o.patch.value_or(0);
   if (const std::optional<Error> error = curve ? check_index("--curve", "curves", model.curves.size(), index)
-                                               : check_index("--patch", "patches", model.patches.size(), index))
+                                               : check_index("--patch", "patches", all, index))
     return *error;
-  Result<std::vector<Evaluation::Row>> rows =
-      curve ? evaluate_curve(model.curves[index], o) : evaluate_patch(model.patches[index].surface, o);
+  Result<std::vector<Evaluation::Row>> rows = curve ? evaluate_curve(model.curves[index], o)
+                                              : static_cast<std::size_t>(index) < patches
+                                                  ? evaluate_patch(model.patches[index].surface, o)
+                                                  : evaluate_patch(model.gregory_patches[index - patches].patch, o);
   if (!rows) return rows.error();
   return Evaluation{curve ? "curve" : "patch", index, std::move(*rows)};
 }

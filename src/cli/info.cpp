@@ -20,7 +20,8 @@ int run_info(const std::string& path, Decimals decimals) {
   std::string text = fmt::format("{}: {}, sha256 {}\n", file->path, file->format, file->sha256);
   std::visit(
       [&](const auto& model) {
-        text += fmt::format("{}, {}{}, numbers in {}\n", plural(model.patches.size(), "patch", "patches"),
+        text += fmt::format("{}, {}{}, numbers in {}\n",
+                            plural(model.patches.size() + model.gregory_patches.size(), "patch", "patches"),
                             plural(model.curves.size(), "curve", "curves"),
                             model.units.empty() ? "" : ", units " + model.units,
                             std::holds_alternative<Model<Rational>>(file->model) ? "Q" : "Q(√d)");

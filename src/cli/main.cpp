@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   int exit_code = kProven;
   add_certify(app, exit_code);
   add_evaluate(app, exit_code);
+  add_fill(app, exit_code);
   add_info(app, exit_code);
   add_convert(app, exit_code);
   add_plot(app, exit_code);

@@ -21,6 +21,10 @@ enum Node {
   kCurve,
   kPatches,
   kPatch,
+  kGregoryPatches,
+  kGregory,
+  kGregoryName,
+  kGregorySurface,
   kCoons,
   kTransfinite,
   kGordon,
@@ -50,6 +54,7 @@ constexpr JsonRule kRules[] = {
     {kRoot, "units", kUnits, JsonType::string},
     {kRoot, "curves", kCurves, JsonType::array},
     {kRoot, "patches", kPatches, JsonType::array},
+    {kRoot, "gregory_patches", kGregoryPatches, JsonType::array},
     {kRoot, "solids", kSolids, JsonType::array},
     {kRoot, "joins", kJoins, JsonType::array},
     {kCurves, "", kCurve, JsonType::object},
@@ -65,6 +70,14 @@ constexpr JsonRule kRules[] = {
     {kPatch, "knots", kKnotVectors, JsonType::array},
     {kPatch, "control_points", kNet, JsonType::array},
     {kPatch, "weights", kWeightNet, JsonType::array},
+    {kGregoryPatches, "", kGregory, JsonType::object},
+    {kGregory, "name", kGregoryName, JsonType::string},
+    {kGregory, "u", kGregorySurface, JsonType::object, true},
+    {kGregory, "v", kGregorySurface, JsonType::object, true},
+    {kGregorySurface, "degree", kDegrees, JsonType::array},
+    {kGregorySurface, "knots", kKnotVectors, JsonType::array},
+    {kGregorySurface, "control_points", kNet, JsonType::array},
+    {kGregorySurface, "weights", kWeightNet, JsonType::array},
     {kPatch, "coons", kCoons, JsonType::object},
     {kCoons, "v_min", kCurve, JsonType::object, true},
     {kCoons, "v_min", kControlPoint, JsonType::array},
@@ -134,6 +147,11 @@ class ModelVisitor final : public JsonVisitor {
         enclosing_ = current_ = &patch_;
         construction_.reset();
         break;
+      case kGregory: gregory_ = {"", walker.here(), walker.pointer(), {}, {}}; break;
+      case kGregorySurface:
+        patch_.start(2, walker);
+        current_ = &patch_;
+        break;
       case kCoons: return begin_construction(RawConstruction::Kind::coons, walker);
       case kTransfinite: return begin_construction(RawConstruction::Kind::transfinite, walker);
       case kGordon: return begin_construction(RawConstruction::Kind::gordon, walker);
@@ -169,6 +187,11 @@ class ModelVisitor final : public JsonVisitor {
     switch (node) {
       case kRoot: return finish(walker);
       case kPatch: return finish_patch(walker);
+      case kGregory: return sink_.add(gregory_);
+      case kGregorySurface:
+        if (std::optional<Error> error = patch_.finish(source_, walker)) return error;
+        (walker.key() == "u" ? gregory_.u_surface : gregory_.v_surface) = patch_.raw();
+        break;
       case kTransfinite:
         construction_->blending = blending_.raw();
         enclosing_ = current_ = &patch_;
@@ -205,6 +228,7 @@ class ModelVisitor final : public JsonVisitor {
         if (text != "1") return walker.error(ErrorCode::unsupported, "only version 1 of the format is read", text);
         break;
       case kUnits: sink_.units = text; break;
+      case kGregoryName: gregory_.name = text; break;
       case kAlong:
         if (text != "u" && text != "v")
           return walker.error(ErrorCode::syntax, "a blending runs along \"u\" or \"v\"", text);
@@ -280,7 +304,7 @@ class ModelVisitor final : public JsonVisitor {
   }
 
   std::optional<Error> finish(const JsonWalker& walker) {
-    const std::size_t patches = sink_.patch_count();
+    const std::size_t patches = sink_.patch_count() + sink_.gregory_patch_count();
     if (patches == 0 && sink_.curve_count() == 0)
       return walker.error(ErrorCode::wrong_count, "the model has neither patches nor curves");
     if (largest_ && static_cast<std::size_t>(largest_->patch) >= patches)
@@ -300,6 +324,7 @@ class ModelVisitor final : public JsonVisitor {
   JsonSpline* current_ = &patch_;    // which of them is being read
   JsonSpline* enclosing_ = &patch_;  // and which one after the curve
   std::optional<RawConstruction> construction_;
+  RawGregory gregory_;
   std::optional<RawSolid> solid_;
   std::vector<RawSolid> solids_;  // delivered at the end: they refer to patches
   std::string list_;              // the key of the list last begun in it

@@ -16,9 +16,11 @@ class ModelBuilder final : public ModelSink {
 
   std::optional<Error> add(const RawSpline& spline) override;
   std::optional<Error> add(const RawConstruction& construction) override;
+  std::optional<Error> add(const RawGregory& patch) override;
   std::optional<Error> add(const RawSolid& solid) override;
   std::optional<Error> first_bad_number(const RawSpline& spline) override;
   std::size_t patch_count() const override { return model_.patches.size(); }
+  std::size_t gregory_patch_count() const override { return model_.gregory_patches.size(); }
   std::size_t curve_count() const override { return model_.curves.size(); }
 
   // T = Rational: the error came from a root, so that the file should be read again over Q(√d).

@@ -82,6 +82,14 @@ struct RawConstruction {
   bool along_u = true;                                              // transfinite: the direction of the blending
 };
 
+// A NURBS boundary Gregory patch.
+struct RawGregory {
+  std::string name;
+  std::string_view at;
+  std::string pointer;
+  RawSpline u_surface, v_surface;
+};
+
 // A solid made from patches of the model and points.
 struct RawSolid {
   struct Control {
@@ -101,12 +109,14 @@ class ModelSink {
   virtual ~ModelSink() = default;
   virtual std::optional<Error> add(const RawSpline& spline) = 0;
   virtual std::optional<Error> add(const RawConstruction& construction) = 0;
+  virtual std::optional<Error> add(const RawGregory& patch) = 0;
   // After all patches.
   virtual std::optional<Error> add(const RawSolid& solid) = 0;
   // The first text among the numbers that is none: what a reader asks when a file ends inside a spline, because two
   // numbers run together make a file seem too short.
   virtual std::optional<Error> first_bad_number(const RawSpline& spline) = 0;
   virtual std::size_t patch_count() const = 0;
+  virtual std::size_t gregory_patch_count() const = 0;
   virtual std::size_t curve_count() const = 0;
 
   std::vector<DeclaredJoin> joins;

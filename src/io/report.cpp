@@ -4,6 +4,7 @@
 #include "patchproof/join/certify.h"
 #include "report_curves.h"
 #include "report_profile.h"
+#include "report_surfaces.h"
 
 namespace patchproof {
 namespace {
@@ -30,24 +31,26 @@ ReportedSide reported_side(const BsplinePatch<T, 4>& patch, int index, const Iso
 
 template <ExactField T>
 void certify_into(Report& report, const Model<T>& model, const CertifyOptions& options) {
-  std::vector<const BsplinePatch<T, 4>*> patches;
-  for (const ModelPatch<T>& patch : model.patches) {
-    patches.push_back(&patch.surface);
-    report.patch_names.push_back(patch.name);
-  }
+  for (const ModelPatch<T>& patch : model.patches) report.patch_names.push_back(patch.name);
+  for (const ModelGregoryPatch<T>& patch : model.gregory_patches) report.patch_names.push_back(patch.name);
+  ReportSurfaces<T> surfaces(model);
+  const std::vector<const BsplinePatch<T, 4>*>& patches = surfaces.all();
   report.units = model.units;
   begin_request(report, options);
-  EdgeMatch<T> match = match_edges(patches, options.match_length);
+  EdgeMatch<T> match = match_edges(patches, options.match_length,
+                                   [&](int surface, EdgeName edge) { return surfaces.is_edge(surface, edge); });
+  surfaces.rename(match);
   if (!model.joins.empty()) {
     // The file says which edges meet; the lines inside patches are looked at all the same.
     std::erase_if(match.joins, [](const Join<T>& j) { return j.kind != JoinKind::knot_line; });
     std::vector<Join<T>> joins;
     for (const DeclaredJoin& d : model.joins)
-      joins.push_back(whole_edge_join(patches, d.patch_a, d.edge_a, d.patch_b, d.edge_b, d.reversed));
+      joins.push_back(whole_edge_join(patches, surfaces.carrier(d.patch_a, d.edge_a), d.edge_a,
+                                      surfaces.carrier(d.patch_b, d.edge_b), d.edge_b, d.reversed));
     joins.insert(joins.end(), match.joins.begin(), match.joins.end());
     match.joins = std::move(joins);
     match.unmatched.clear();
-    for (std::size_t p = 0; p < patches.size(); ++p)
+    for (std::size_t p = 0; p < report.patch_names.size(); ++p)
       for (const EdgeName edge : {EdgeName::u_min, EdgeName::u_max, EdgeName::v_min, EdgeName::v_max}) {
         const auto is_edge = [&](int patch, EdgeName name) { return patch == static_cast<int>(p) && name == edge; };
         const bool used = std::any_of(model.joins.begin(), model.joins.end(), [&](const DeclaredJoin& d) {
@@ -56,7 +59,8 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
         const bool collapsed = std::any_of(match.collapsed.begin(), match.collapsed.end(),
                                            [&](const CollapsedEdge& c) { return is_edge(c.patch, c.edge); });
         if (used || collapsed) continue;
-        const KnotVector<T>& along = patches[p]->knots(other(edge_line(*patches[p], edge).constant));
+        const BsplinePatch<T, 4>& surface = *patches[surfaces.carrier(static_cast<int>(p), edge)];
+        const KnotVector<T>& along = surface.knots(other(edge_line(surface, edge).constant));
         match.unmatched.push_back(
             {static_cast<int>(p), edge, nearest_double(along.domain_begin()), nearest_double(along.domain_end())});
       }
@@ -74,8 +78,8 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
     ReportedJoin out;
     out.id = static_cast<int>(i) + 1;
     out.kind = join.kind;
-    out.a = reported_side(*patches[join.patch_a], join.patch_a, join.line_a, join.pairing.a);
-    out.b = reported_side(*patches[join.patch_b], join.patch_b, join.line_b, join.pairing.b);
+    out.a = reported_side(*patches[join.patch_a], surfaces.patch_of(join.patch_a), join.line_a, join.pairing.a);
+    out.b = reported_side(*patches[join.patch_b], surfaces.patch_of(join.patch_b), join.line_b, join.pairing.b);
     out.reversed = join.pairing.reversed();
     out.pairing = join.pairing.kind;
     if (join.pairing.kind == PairingKind::piecewise_linear)
@@ -85,6 +89,13 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
     out.certificate = std::move(certificates[i]);
     out.judgement = judge(out.certificate, request_at(options, join.kind));
     report.joins.push_back(std::move(out));
+  }
+  if constexpr (std::is_same_v<T, Rational>) {
+    std::vector<const GregoryPatch<Rational>*> gregory;
+    for (const ModelGregoryPatch<T>& patch : model.gregory_patches) gregory.push_back(&patch.patch);
+    const std::vector<GregoryProof> proofs = prove_patches(gregory, options.jobs);
+    for (std::size_t i = 0; i < proofs.size(); ++i)
+      report.gregory_patches.push_back({static_cast<int>(model.patches.size() + i), proofs[i]});
   }
 }
 

@@ -164,6 +164,22 @@ std::string cad_text(const CadReport& cad) {
   return out + "],\n";
 }
 
+// What is proved of Gregory patches by themselves.
+std::string gregory_text(const Report& r) {
+  std::string out = "\"gregory_patches\":[";
+  for (const ReportedGregoryPatch& p : r.gregory_patches)
+    out += (&p == &r.gregory_patches.front() ? "\n" : ",\n") +
+           text_of(Json{{"patch", p.patch},
+                        {"c1", p.proof.is_c1() ? "proven" : "refuted"},
+                        {"boundary_matched", p.proof.matched},
+                        {"corners_agree", p.proof.corners},
+                        {"rows_c1", p.proof.c1},
+                        {"weights_positive", p.proof.positive},
+                        {"regular", to_string(p.proof.regular.verdict)},
+                        {"reason", p.proof.regular.reason}});
+  return out + "],\n";
+}
+
 // The same for an object, without the closing brace.
 std::string open_object(const Json& value) {
   std::string text = text_of(value);
@@ -207,6 +223,7 @@ void write_json(std::ostream& out, const Report& r) {
                .dump();
   }
   out << "],\n";
+  if (!r.gregory_patches.empty()) out << gregory_text(r);
   if (r.cad) out << cad_text(*r.cad);
   if (r.curves) out << curves_json(r);
   out << "\"summary\":" << summary_json(r).dump() << ",\n\"verdict\":\"" << to_string(r.outcome()) << "\"}\n";

@@ -158,6 +158,14 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
         std::count_if(r.collapsed.begin(), r.collapsed.end(), [](const auto& c) { return c.tangent_plane; });
     out << fmt::format("poles    {} collapsed edges, {} with a proven tangent plane\n", r.collapsed.size(), planes);
   }
+  if (!r.gregory_patches.empty()) {
+    std::map<std::string, int> c1, regular;
+    for (const ReportedGregoryPatch& p : r.gregory_patches) {
+      ++c1[p.proof.is_c1() ? "proven" : "refuted"];
+      ++regular[to_string(p.proof.regular.verdict)];
+    }
+    out << fmt::format("inside   Gregory patches: C1 {}; normal nowhere zero {}\n", listed(c1), listed(regular));
+  }
   if (r.cad && !r.cad->no_joins.empty()) {
     std::map<std::string, int> others;
     for (const ReportedEdge& edge : r.cad->no_joins) ++others[edge.kind];

@@ -1,66 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/io/write.h"
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
-#include <iterator>
+
+#include "json_text.h"
 
 namespace patchproof {
 namespace {
 
-constexpr std::size_t kShortDigits = 18;
-
-// 7/5 → 1.4, when the denominator divides a power of ten and the digits are few; otherwise "".
-std::string short_decimal(const Rational& x) {
-  namespace mp = boost::multiprecision;
-  const Integer denominator = mp::denominator(x);
-  Integer scale(1);
-  for (std::size_t digits = 0; digits <= kShortDigits; ++digits, scale *= 10) {
-    if (scale % denominator != 0) continue;
-    const Integer numerator = mp::numerator(x) * (scale / denominator);
-    std::string text = Integer(mp::abs(numerator)).str();
-    if (text.size() <= digits) text.insert(0, digits + 1 - text.size(), '0');
-    if (text.size() > kShortDigits + 1) return "";
-    if (digits > 0) text.insert(text.size() - digits, ".");
-    return numerator < 0 ? "-" + text : text;
-  }
-  return "";
-}
-
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-std::string number(const Rational& x) {
-  std::string text = short_decimal(x);
-  return text.empty() ? quoted(to_text(x)) : text;
-}
-
-std::string number(const Quadratic& x) { return x.is_rational() ? number(x.rational_part()) : quoted(to_text(x)); }
-
 using Buffer = fmt::memory_buffer;
-
-template <class... Arguments>
-void put(Buffer& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Arguments>(arguments)...);
-}
-
-// "[" element(0) ", " element(1) … "]"
-template <class Element>
-void list(Buffer& out, int count, std::string_view separator, Element element) {
-  put(out, "[");
-  for (int i = 0; i < count; ++i) {
-    if (i > 0) put(out, "{}", separator);
-    element(i);
-  }
-  put(out, "]");
-}
 
 template <ExactField T>
 void knot_list(Buffer& out, const KnotVector<T>& knots) {
-  list(out, static_cast<int>(knots.knots().size()), ", ", [&](int i) { put(out, "{}", number(knots[i])); });
+  json_list(out, static_cast<int>(knots.knots().size()), ", ", [&](int i) { put(out, "{}", json_number(knots[i])); });
 }
 
 template <ExactField T>
@@ -82,14 +34,14 @@ bool has_zero_weight(const std::vector<Vec<T, 4>>& points) {
 // [x, y] or [x, y, z]; homogeneous: [w·x, w·y, w] or [w·x, w·y, w·z, w].
 template <ExactField T>
 void point(Buffer& out, const Vec<T, 4>& p, int dimension, bool homogeneous) {
-  list(out, dimension + (homogeneous ? 1 : 0), ", ", [&](int c) {
-    put(out, "{}", number(!homogeneous ? p[c] / p[3] : c == dimension ? p[3] : p[c]));
+  json_list(out, dimension + (homogeneous ? 1 : 0), ", ", [&](int c) {
+    put(out, "{}", json_number(!homogeneous ? p[c] / p[3] : c == dimension ? p[3] : p[c]));
   });
 }
 
 void begin_spline(Buffer& out, const std::string& name) {
   put(out, "    {{\n");
-  if (!name.empty()) put(out, "      \"name\": {},\n", quoted(name));
+  if (!name.empty()) put(out, "      \"name\": {},\n", json_string(name));
 }
 
 template <ExactField T>
@@ -109,29 +61,49 @@ void curve(Buffer& out, const ModelCurve<T>& curve) {
   }
   if (homogeneous) put(out, ",\n      \"homogeneous\": true");
   put(out, ",\n      \"control_points\": ");
-  list(out, count, ", ", [&](int i) { point(out, points[i], curve.dimension, homogeneous); });
+  json_list(out, count, ", ", [&](int i) { point(out, points[i], curve.dimension, homogeneous); });
   if (curve.is_rational && !homogeneous) {
     put(out, ",\n      \"weights\": ");
-    list(out, count, ", ", [&](int i) { put(out, "{}", number(points[i][3])); });
+    json_list(out, count, ", ", [&](int i) { put(out, "{}", json_number(points[i][3])); });
   }
   put(out, "\n    }}");
 }
 
+// "degree" … "weights" of a patch, without the braces around it.
 template <ExactField T>
-void patch(Buffer& out, const ModelPatch<T>& patch) {
-  const BsplinePatch<T, 4>& surface = patch.surface;
+void surface(Buffer& out, const BsplinePatch<T, 4>& surface, bool is_rational) {
   const int rows = surface.count(Direction::u), columns = surface.count(Direction::v);
   const bool homogeneous = has_zero_weight(surface.net());
-  begin_spline(out, patch.name);
   put(out, "      \"degree\": [{}, {}]", surface.degree(Direction::u), surface.degree(Direction::v));
   knots(out, surface);
   put(out, ",\n      \"control_points\": ");
-  list(out, rows, ",\n        ",
-       [&](int i) { list(out, columns, ", ", [&](int j) { point(out, surface.point(i, j), 3, homogeneous); }); });
-  if (patch.is_rational && !homogeneous) {
+  json_list(out, rows, ",\n        ", [&](int i) {
+    json_list(out, columns, ", ", [&](int j) { point(out, surface.point(i, j), 3, homogeneous); });
+  });
+  if (is_rational && !homogeneous) {
     put(out, ",\n      \"weights\": ");
-    list(out, rows, ",\n        ",
-         [&](int i) { list(out, columns, ", ", [&](int j) { put(out, "{}", number(surface.point(i, j)[3])); }); });
+    json_list(out, rows, ",\n        ", [&](int i) {
+      json_list(out, columns, ", ", [&](int j) { put(out, "{}", json_number(surface.point(i, j)[3])); });
+    });
+  }
+}
+
+template <ExactField T>
+void patch(Buffer& out, const ModelPatch<T>& patch) {
+  begin_spline(out, patch.name);
+  surface(out, patch.surface, patch.is_rational);
+  put(out, "\n    }}");
+}
+
+template <ExactField T>
+void gregory_patch(Buffer& out, const ModelGregoryPatch<T>& patch) {
+  begin_spline(out, patch.name);
+  for (const auto* of : {&patch.patch.u_surface(), &patch.patch.v_surface()}) {
+    const bool is_rational =
+        std::any_of(of->net().begin(), of->net().end(), [](const Vec<T, 4>& p) { return !(p[3] == T(1)); });
+    put(out, "      \"{}\": {{\n", of == &patch.patch.u_surface() ? "u" : "v");
+    surface(out, *of, is_rational);
+    put(out, "\n      }}{}", of == &patch.patch.u_surface() ? ",\n" : "");
   }
   put(out, "\n    }}");
 }
@@ -147,13 +119,13 @@ void solid(Buffer& out, const ModelSolid<T>& solid) {
     put(out, ", ");
   }
   put(out, "\"controls\": ");
-  list(out, static_cast<int>(solid.controls.size()), ", ", [&](int k) {
+  json_list(out, static_cast<int>(solid.controls.size()), ", ", [&](int k) {
     const auto& control = solid.controls[k];
     const Vec<T, 3>& x = control.point;
     if (control.patch >= 0)
       put(out, "{}", control.patch);
     else
-      list(out, 3, ", ", [&](int c) { put(out, "{}", number(x[c])); });
+      json_list(out, 3, ", ", [&](int c) { put(out, "{}", json_number(x[c])); });
   });
   put(out, "}}\n    }}");
 }
@@ -177,9 +149,10 @@ template <ExactField T>
 std::string write_model_json(const Model<T>& model) {
   Buffer out;
   put(out, "{{\n  \"format\": \"patchproof-model\",\n  \"version\": 1");
-  if (!model.units.empty()) put(out, ",\n  \"units\": {}", quoted(model.units));
+  if (!model.units.empty()) put(out, ",\n  \"units\": {}", json_string(model.units));
   section(out, "curves", model.curves, [&](const ModelCurve<T>& c) { curve(out, c); });
   section(out, "patches", model.patches, [&](const ModelPatch<T>& p) { patch(out, p); });
+  section(out, "gregory_patches", model.gregory_patches, [&](const ModelGregoryPatch<T>& p) { gregory_patch(out, p); });
   section(out, "solids", model.solids, [&](const ModelSolid<T>& s) { solid(out, s); });
   section(out, "joins", model.joins, [&](const DeclaredJoin& join) {
     put(out,

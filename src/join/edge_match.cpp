@@ -20,6 +20,7 @@ namespace patchproof {
 namespace {
 
 namespace bg = boost::geometry;
+using IsEdge = std::function<bool(int, EdgeName)>;
 using BoxPoint = bg::model::point<double, 3, bg::cs::cartesian>;
 using Box = bg::model::box<BoxPoint>;
 
@@ -46,9 +47,10 @@ struct Edge {
 template <ExactField T>
 class EdgeMatcher {
  public:
-  EdgeMatcher(const std::vector<const BsplinePatch<T, 4>*>& patches, double length) : patches_(patches) {
+  EdgeMatcher(const std::vector<const BsplinePatch<T, 4>*>& patches, double length, const IsEdge& is_edge)
+      : patches_(patches) {
     choose_frame();
-    collect_edges(length);
+    collect_edges(length, is_edge);
   }
 
   EdgeMatch<T> run() {
@@ -102,12 +104,13 @@ class EdgeMatcher {
     frame_.exponent = exponent && *exponent != std::numeric_limits<long>::min() ? *exponent : 0;
   }
 
-  void collect_edges(double length) {
+  void collect_edges(double length, const IsEdge& is_edge) {
     Box all = bg::make_inverse<Box>();
     std::vector<Edge> edges;
     std::vector<Box> of_patch(patches_.size(), all);
     for (std::size_t p = 0; p < patches_.size(); ++p)
       for (EdgeName name : kEdges) {
+        if (is_edge && !is_edge(static_cast<int>(p), name)) continue;
         const EdgeCurve curve = edge_curve(*patches_[p], name, frame_);
         Edge edge{static_cast<int>(p), name, {}, bg::make_inverse<Box>()};
         bool finite = true;
@@ -368,8 +371,8 @@ class EdgeMatcher {
 }  // namespace
 
 template <ExactField T>
-EdgeMatch<T> match_edges(const std::vector<const BsplinePatch<T, 4>*>& patches, double length) {
-  return EdgeMatcher<T>(patches, length).run();
+EdgeMatch<T> match_edges(const std::vector<const BsplinePatch<T, 4>*>& patches, double length, const IsEdge& is_edge) {
+  return EdgeMatcher<T>(patches, length, is_edge).run();
 }
 
 template <ExactField T>
@@ -387,8 +390,8 @@ Join<T> whole_edge_join(const std::vector<const BsplinePatch<T, 4>*>& patches, i
   return join;
 }
 
-template EdgeMatch<Rational> match_edges(const std::vector<const BsplinePatch<Rational, 4>*>&, double);
-template EdgeMatch<Quadratic> match_edges(const std::vector<const BsplinePatch<Quadratic, 4>*>&, double);
+template EdgeMatch<Rational> match_edges(const std::vector<const BsplinePatch<Rational, 4>*>&, double, const IsEdge&);
+template EdgeMatch<Quadratic> match_edges(const std::vector<const BsplinePatch<Quadratic, 4>*>&, double, const IsEdge&);
 template Join<Rational> whole_edge_join(const std::vector<const BsplinePatch<Rational, 4>*>&, int, EdgeName, int,
                                         EdgeName, bool);
 template Join<Quadratic> whole_edge_join(const std::vector<const BsplinePatch<Quadratic, 4>*>&, int, EdgeName, int,

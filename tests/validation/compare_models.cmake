@@ -1,16 +1,17 @@
 # compare_models.cmake: runs MAKE_MODELS into FOLDER and compares every file with the committed one in EXAMPLES, where those
-# of toolbox/ are no program's output.
+# that match OTHERS are not its output.
 file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
 execute_process(COMMAND ${MAKE_MODELS} ${FOLDER} COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
 file(GLOB_RECURSE made RELATIVE ${FOLDER} ${FOLDER}/*.json)
 file(GLOB_RECURSE committed RELATIVE ${EXAMPLES} ${EXAMPLES}/*.json)
-list(FILTER committed EXCLUDE REGEX "^toolbox/")
+list(FILTER committed EXCLUDE REGEX "${OTHERS}")
 if(NOT made STREQUAL committed OR NOT made)
   message(FATAL_ERROR "made: ${made}\ncommitted: ${committed}")
 endif()
 foreach(model ${made})
   execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${FOLDER}/${model} ${EXAMPLES}/${model} RESULT_VARIABLE different)
   if(different)
-    message(SEND_ERROR "examples/${model} is not what make_models writes")
+    message(SEND_ERROR "${model} is not what ${MAKE_MODELS} writes")
   endif()
 endforeach()

@@ -10,6 +10,7 @@
 
 #include "patchproof/patch/boundary.h"
 #include "patchproof/patch/bspline_patch.h"
+#include "patchproof/patch/gregory_patch.h"
 #include "patchproof/patch/transfinite.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/scalar/quadratic.h"
@@ -37,6 +38,14 @@ struct ModelCurve {
   int dimension = 3;  // 2: the file gives x and y only, and z = 0
 };
 
+// A NURBS boundary Gregory patch. As one of the model's patches its number comes after those of all others.
+// ENSURES (for patches that a reader returns) the corners agree and no denominator has a zero.
+template <ExactField T>
+struct ModelGregoryPatch {
+  std::string name;  // as in the file, or "" when it has none
+  GregoryPatch<T> patch;
+};
+
 // A solid over a box of (u, v, w), mapped to homogeneous points. Read from a file it is Σ N_k(w) C_k(u,v) with patches of the
 // model and points as controls.
 template <ExactField T>
@@ -61,6 +70,7 @@ struct DeclaredJoin {
 template <ExactField T>
 struct Model {
   std::vector<ModelPatch<T>> patches;
+  std::vector<ModelGregoryPatch<T>> gregory_patches;
   std::vector<ModelCurve<T>> curves;
   std::vector<ModelSolid<T>> solids;
   std::vector<DeclaredJoin> joins;  // empty: joins are found from the geometry

@@ -20,6 +20,7 @@
 #include "patchproof/join/certificate.h"
 #include "patchproof/join/curve_join.h"
 #include "patchproof/join/edge_match.h"
+#include "patchproof/join/gregory_proof.h"
 
 namespace patchproof {
 
@@ -110,6 +111,12 @@ struct CurveReport {
   std::optional<double> curvature_tolerance;
 };
 
+// A Gregory patch by itself.
+struct ReportedGregoryPatch {
+  int patch = 0;
+  GregoryProof proof;
+};
+
 struct Report {
   std::string file, format, sha256, units;
   Decimals decimals = Decimals::exact;
@@ -120,6 +127,7 @@ struct Report {
   std::vector<ReportedJoin> joins;
   std::vector<EdgeRange> unmatched;
   std::vector<CollapsedEdge> collapsed;
+  std::vector<ReportedGregoryPatch> gregory_patches;  // of models over Q
   std::optional<CadReport> cad;
   std::optional<CurveReport> curves;
 

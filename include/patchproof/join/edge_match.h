@@ -15,6 +15,7 @@
 // COST     O(n log n) for n edges of bounded overlap.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "patchproof/join/join.h"
@@ -45,9 +46,10 @@ struct EdgeMatch {
 };
 
 // length: edges are looked at when their paired points are within it; 0 means 1e-6 of the diagonal, and never more than a
-// tenth of the shorter edge.
+// tenth of the shorter edge.  is_edge(patch, edge): which edges there are; all, when it is empty.
 template <ExactField T>
-EdgeMatch<T> match_edges(const std::vector<const BsplinePatch<T, 4>*>& patches, double length = 0);
+EdgeMatch<T> match_edges(const std::vector<const BsplinePatch<T, 4>*>& patches, double length = 0,
+                         const std::function<bool(int, EdgeName)>& is_edge = {});
 
 // The pairing of two whole edges, for joins that a file declares: affine, or rational linear when that makes them equal.
 template <ExactField T>
