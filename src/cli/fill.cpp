@@ -20,7 +20,7 @@ namespace {
 
 struct Options {
   std::string from, to;
-  std::string method = "c1", scale = "none";
+  std::string method = "c1", scale = "auto";
   std::optional<double> repair;  // degrees
   int jobs = 0;
   bool quiet = false;
@@ -109,8 +109,6 @@ int run(const Options& options) {
   std::error_code ignored;
   if (options.to != "-" && std::filesystem::equivalent(options.from, options.to, ignored))
     return report_error({ErrorCode::usage, "fill", "would overwrite its input", options.to});
-  const FillOptions fill{options.scale == "rational" ? NodeScale::rational : NodeScale::none,
-                         options.method == "former" ? FillMethod::former : FillMethod::c1};
   std::string text;
   CurveMesh mesh = std::move(file->mesh);
   if (options.repair) {
@@ -124,6 +122,11 @@ int run(const Options& options) {
   const std::size_t faces = mesh.faces.size();
   const auto other =
       std::count_if(mesh.faces.begin(), mesh.faces.end(), [](const MeshFace& f) { return f.sides.size() != 4; });
+  // Vectors across an edge become uneven in length at T-nodes, and those of a split face are T-nodes.
+  const bool uneven = other > 0 || !mesh.t_nodes.empty();
+  const FillOptions fill{
+      options.scale == "rational" || (options.scale == "auto" && uneven) ? NodeScale::rational : NodeScale::none,
+      options.method == "former" ? FillMethod::former : FillMethod::c1};
   if (other > 0) {
     Result<CurveMesh> split = split_faces(mesh, fill);
     if (!split) return report_error(at(options.from, split.error()));
@@ -175,10 +178,12 @@ void add_fill(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"c1", "former"}))
       ->option_text("c1|former");
   command
-      ->add_option("--scale", options->scale,
-                   "node vectors of the basis patches as they are, or divided by their rounded lengths [none]")
-      ->check(CLI::IsMember({"none", "rational"}))
-      ->option_text("none|rational");
+      ->add_option(
+          "--scale", options->scale,
+          "node vectors of the basis patches as they are (none), or divided by their rounded lengths (rational); auto: "
+          "rational where there are T-nodes or faces to be split [auto]")
+      ->check(CLI::IsMember({"auto", "none", "rational"}))
+      ->option_text("auto|none|rational");
   command
       ->add_option(
           "--repair", options->repair,

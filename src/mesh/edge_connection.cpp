@@ -200,13 +200,8 @@ UseConnection connect_use(const CurveMesh& mesh, const MeshTopology& topology, c
   };
   const Rational &begin = use.begin(), &end = use.end();
   const Ends first = coefficients(begin, use.begin_derivative), last = coefficients(end, use.end_derivative);
-  std::vector<Rational> places{begin}, basis_places{begin};
-  for (const Rational& t : common_breaks(breaks(curve), breaks(connection.basis)))
-    if (begin < t && t < end) places.push_back(t);
-  for (const Rational& t : breaks(connection.basis))
-    if (begin < t && t < end) basis_places.push_back(t);
-  places.push_back(end);
-  basis_places.push_back(end);
+  const std::vector<Rational> basis_places = breaks(window(connection.basis, begin, end)),
+                              places = common_breaks(breaks(window(curve, begin, end)), basis_places);
   UseConnection out;
   const bool c1 = options.method == FillMethod::c1;
   if (c1) {

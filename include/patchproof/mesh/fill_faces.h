@@ -16,7 +16,7 @@
 //           bound that Tracked gives; R = Interval: encloses;  (5) the result does not depend on the number of threads.
 // ERRORS    those of connect_edge and of GregoryPatch::make; not those of analyse, which comes before.
 // SCALARS   R: Rational, double, Interval, Tracked. Knots, nodes, k and h are always exact.
-// COST      linear in the faces; about 0.2 ms for each in Rational.
+// COST      linear in the faces; about 1 ms for each in Rational.
 // SOURCE    as curve_mesh.h.
 // TEST      tests/mesh/fill_faces_test.cpp checks (1)–(5).
 #pragma once

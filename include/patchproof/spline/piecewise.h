@@ -13,7 +13,8 @@
 //           (6) is_c1: exactly when values and first derivatives agree at every inner break;
 //           (7) joined: the B-spline with these pieces, if they are C^(p−m) at the inner breaks (m = multiplicity).
 // SCALARS   T: Field, K: OrderedField; is_c1: T ExactRing. Exact in exact scalars.
-// COST      of refine: O(p³) combinations of points for each new break; the others one pass.
+// COST      of refine: O(p³) combinations of points for each new break; window, part and value: O(log s) and the pieces they
+//           need; the others one pass.
 // NEIGHBOURS bezier_extraction.h (from a B-spline and back), product.h (of two B-splines, with their knots).
 // TEST      tests/spline/piecewise_test.cpp checks (1)–(7).
 #pragma once
@@ -87,6 +88,14 @@ bool over_one_range(const Piecewise<T, M, K>& f, const Piecewise<T, N, K>& g) {
   return !f.empty() && !g.empty() && f.front().begin == g.front().begin && f.back().end == g.back().end;
 }
 
+// The piece to that side of t; the last or the first where there is none.
+template <Ring T, std::size_t N, OrderedField K>
+auto piece_at(const Piecewise<T, N, K>& f, const K& t, Side side) {
+  return std::partition_point(f.begin(), f.end() - 1, [&](const BezierPiece<T, N, K>& piece) {
+    return side == Side::right ? piece.end <= t : piece.end < t;
+  });
+}
+
 }  // namespace detail
 
 template <Ring T, std::size_t N, OrderedField K>
@@ -117,10 +126,13 @@ Piecewise<T, N, K> refine(const Piecewise<T, N, K>& f, const std::vector<K>& at)
       continue;
     }
     cuts.push_back(piece.end);
-    for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-      out.push_back({cuts[i], cuts[i + 1],
-                     restrict(piece.points, knot_ratio<T>(cuts[i], piece.begin, piece.end),
-                              knot_ratio<T>(cuts[i + 1], piece.begin, piece.end))});
+    std::vector<Vec<T, N>> rest = piece.points;
+    for (std::size_t i = 1; i + 1 < cuts.size(); ++i) {
+      BezierHalves<Vec<T, N>> halves = split(rest, knot_ratio<T>(cuts[i], cuts[i - 1], piece.end));
+      out.push_back({cuts[i - 1], cuts[i], std::move(halves.left)});
+      rest = std::move(halves.right);
+    }
+    out.push_back({cuts[cuts.size() - 2], piece.end, std::move(rest)});
   }
   return out;
 }
@@ -176,8 +188,10 @@ Piecewise<T, N, K> derivative(Piecewise<T, N, K> f) {
 template <Field T, std::size_t N, OrderedField K>
 Piecewise<T, N, K> window(const Piecewise<T, N, K>& f, const K& begin, const K& end) {
   PATCHPROOF_REQUIRES(f.front().begin <= begin && begin < end && end <= f.back().end, "window: outside the range");
+  auto first = detail::piece_at(f, begin, Side::right), last = first;
+  while (last != f.end() && last->begin < end) ++last;
   Piecewise<T, N, K> out;
-  for (BezierPiece<T, N, K>& piece : refine(f, std::vector<K>{begin, end}))
+  for (BezierPiece<T, N, K>& piece : refine(Piecewise<T, N, K>(first, last), std::vector<K>{begin, end}))
     if (begin <= piece.begin && piece.end <= end) out.push_back(std::move(piece));
   return out;
 }
@@ -201,9 +215,14 @@ Piecewise<T, N, K> part(const Piecewise<T, N, K>& f, const K& from, const K& to)
 template <Field T, std::size_t N, OrderedField K>
 Vec<T, N> value(const Piecewise<T, N, K>& f, const K& t, int order, Side side) {
   PATCHPROOF_REQUIRES(f.front().begin <= t && t <= f.back().end, "value: outside the range");
-  std::size_t i = 0;
-  while (i + 1 < f.size() && (side == Side::right ? f[i].end <= t : f[i].end < t)) ++i;
-  const BezierPiece<T, N, K>& piece = f[i];
+  const BezierPiece<T, N, K>& piece = *detail::piece_at(f, t, side);
+  if (order <= 1 && piece.degree() >= 1 && (t == piece.begin || t == piece.end)) {
+    const std::vector<Vec<T, N>>& q = piece.points;
+    const bool at_end = t == piece.end;
+    if (order == 0) return at_end ? q.back() : q.front();
+    return knot_rate<T>(piece.degree(), piece.begin, piece.end) *
+           (at_end ? q[q.size() - 1] - q[q.size() - 2] : q[1] - q[0]);
+  }
   Vec<T, N> out = derivative(piece.points, knot_ratio<T>(t, piece.begin, piece.end), order);
   for (int k = 0; k < order; ++k) out = knot_rate<T>(1, piece.begin, piece.end) * out;
   return out;
@@ -224,6 +243,14 @@ BsplineCurve<T, N, K> joined(const Piecewise<T, N, K>& f, int multiplicity) {
   std::vector<K> knots(p + 1, f.front().begin);
   for (std::size_t i = 0; i + 1 < f.size(); ++i) knots.insert(knots.end(), multiplicity, f[i].end);
   knots.insert(knots.end(), p + 1, f.back().end);
+  if (p - 1 <= multiplicity &&
+      multiplicity <= p) {  // the Bézier points, without the joints that their neighbours decide
+    std::vector<Vec<T, N>> points;
+    for (std::size_t i = 0; i < f.size(); ++i)
+      points.insert(points.end(), f[i].points.begin() + (i == 0 ? 0 : 1),
+                    f[i].points.end() - (i + 1 < f.size() && multiplicity == p - 1 ? 1 : 0));
+    return BsplineCurve<T, N, K>(KnotVector<K>::make_unchecked(p, std::move(knots)), std::move(points));
+  }
   return join_pieces(f, KnotVector<K>::make_unchecked(p, std::move(knots)));
 }
 
