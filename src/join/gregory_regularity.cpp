@@ -37,7 +37,8 @@ std::array<Interval, 2> blend_derivatives(const Interval& x, const Interval& y) 
 
 class Regularity {
  public:
-  Regularity(const GregoryPatch<Rational>& patch, int max_boxes) : patch_(patch), left_(max_boxes) {
+  Regularity(const GregoryPatch<Rational>& patch, int max_boxes, const BoxInspector& inspect)
+      : patch_(patch), inspect_(inspect), left_(max_boxes) {
     for (std::size_t p = 0; p < 2; ++p)
       for (std::size_t q = 0; q < 2; ++q) {
         const std::size_t i = 1 + p, j = 1 + q;
@@ -120,6 +121,7 @@ class Regularity {
         du += (p == 0 ? gx : -gx) * differences_[p][q];
         dv += (q == 0 ? gy : -gy) * differences_[p][q];
       }
+    if (inspect_) inspect_({box.u_begin, box.u_end, box.v_begin, box.v_end}, du, dv);
     if (detail::is_one_sided(cross(du, dv))) return true;
     // The longer side is halved.
     const double size_u = (box.u_end - box.u_begin).convert_to<double>(),
@@ -136,6 +138,7 @@ class Regularity {
     return prove(low, halvings - 1) && prove(high, halvings - 1);
   }
   const GregoryPatch<Rational>& patch_;
+  const BoxInspector& inspect_;
   std::array<std::array<IntervalVector, 2>, 2> differences_;
   int left_;
   std::array<Rational, 2> stopped_;
@@ -143,8 +146,9 @@ class Regularity {
 
 }  // namespace
 
-RegularityResult prove_regular_polynomial(const GregoryPatch<Rational>& patch, int max_boxes) {
-  Regularity regularity(patch, max_boxes);
+RegularityResult prove_regular_polynomial(const GregoryPatch<Rational>& patch, int max_boxes,
+                                          const BoxInspector& inspect) {
+  Regularity regularity(patch, max_boxes, inspect);
   const bool proven = regularity.run();
   return {proven, max_boxes - std::max(0, regularity.left()), {regularity.u(), regularity.v()}};
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "patchproof/patch/bezier_patch.h"
@@ -20,9 +21,15 @@ struct RegularityResult {
   std::array<Rational, 2> stopped;  // where it was given up
 };
 
+// What is called for every box, if anything, with the enclosures of S_u and S_v there: tests hold them against exact values.
+using BoxInspector =
+    std::function<void(const ParameterBox<Rational>& box, const Vec<Interval, 3>& du, const Vec<Interval, 3>& dv)>;
+
 // REQUIRES a RoundingGuard alive; polynomial: every weight is 1, rational: every weight is positive, the corners agree.
-RegularityResult prove_regular_polynomial(const GregoryPatch<Rational>& patch, int max_boxes);
-RegularityResult prove_regular_rational(const GregoryPatch<Rational>& patch, int max_boxes);
+RegularityResult prove_regular_polynomial(const GregoryPatch<Rational>& patch, int max_boxes,
+                                          const BoxInspector& inspect = {});
+RegularityResult prove_regular_rational(const GregoryPatch<Rational>& patch, int max_boxes,
+                                        const BoxInspector& inspect = {});
 
 namespace detail {
 

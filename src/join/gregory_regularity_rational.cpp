@@ -68,7 +68,10 @@ struct Box {
 
 class RationalRegularity {
  public:
-  RationalRegularity(const GregoryPatch<Rational>& patch, int max_boxes) : patch_(patch) { result_.boxes = max_boxes; }
+  RationalRegularity(const GregoryPatch<Rational>& patch, int max_boxes, const BoxInspector& inspect)
+      : patch_(patch), inspect_(inspect) {
+    result_.boxes = max_boxes;
+  }
 
   RegularityResult run() {
     const int limit = result_.boxes;
@@ -202,7 +205,9 @@ class RationalRegularity {
                sv = projected(enclosure(seen_from(centre, box.v), per_u, per_v)),
                sc = c_surface(box, u, v, per_u, per_v, centre);
     if (!su || !sv || !sc) return false;
-    return detail::is_one_sided(cross(su->du + sv->du - sc->du, su->dv + sv->dv - sc->dv));
+    const IntervalVector du = su->du + sv->du - sc->du, dv = su->dv + sv->dv - sc->dv;
+    if (inspect_) inspect_({box.u_begin, box.u_end, box.v_begin, box.v_end}, du, dv);
+    return detail::is_one_sided(cross(du, dv));
   }
 
   bool prove(const Box& box, int halvings = detail::kHalvings) {
@@ -237,6 +242,7 @@ class RationalRegularity {
   }
 
   const GregoryPatch<Rational>& patch_;
+  const BoxInspector& inspect_;
   Vec<Rational, 3> origin_;
   int left_ = 0;
   RegularityResult result_;
@@ -244,8 +250,9 @@ class RationalRegularity {
 
 }  // namespace
 
-RegularityResult prove_regular_rational(const GregoryPatch<Rational>& patch, int max_boxes) {
-  return RationalRegularity(patch, max_boxes).run();
+RegularityResult prove_regular_rational(const GregoryPatch<Rational>& patch, int max_boxes,
+                                        const BoxInspector& inspect) {
+  return RationalRegularity(patch, max_boxes, inspect).run();
 }
 
 }  // namespace patchproof

@@ -24,7 +24,7 @@ MAY_INCLUDE = {
     "spline": ["base", "scalar"],
     "patch": ["base", "scalar", "spline"],
     "join": ["base", "scalar", "spline", "patch"],
-    "mesh": ["base", "scalar", "spline", "patch"],
+    "mesh": ["base", "scalar", "spline", "patch", "join"],
     "io": BELOW_IO,
     "c_api": BELOW_IO + ["io"],
     "cli": BELOW_IO + ["io", "c_api"],
@@ -130,8 +130,9 @@ class House:
             if OCCT.search(name) and parts[:2] not in OCCT_PLACES:
                 self.report("library", path, line, f"{name} belongs to src/io/, its tests, the peers, the verdicts and "
                                                    "examples/cad/")
-            if name.startswith("kernels/") and parts[0] == "src" and path.name != "evaluate_batch.cpp":
-                self.report("library", path, line, "only evaluate_batch.cpp calls the kernels")
+            if name.startswith("kernels/") and parts[0] == "src" and path.name not in ("evaluate_batch.cpp",
+                                                                                      "gregory_batch.cpp"):
+                self.report("library", path, line, "only evaluate_batch.cpp and gregory_batch.cpp call the kernels")
 
     def check_literals(self, path, parts, text):
         if parts[:2] != ("include", "patchproof") or len(parts) < 4 or parts[2] not in TEMPLATE_ROOMS:
