@@ -66,24 +66,32 @@ Result<WrittenModel> written_cad(const Model<T>& model, CadFormat format) {
 }
 
 template <ExactField T>
-Result<WrittenModel> written(const Model<T>& model, const std::string& to) {
+Result<WrittenModel> written(const Model<T>& model, const std::string& to, int cells) {
   const std::string extension = extension_of(to);
+  const bool is_json = extension == ".json" || extension.empty();
+  if (!model.gregory_patches.empty() && !is_json) {
+    Result<SplinesOnly<T>> splines = with_splines_only(model, cells);
+    if (!splines) return splines.error();
+    Result<WrittenModel> out = written(splines->model, to, cells);
+    if (out) out->notes.insert(out->notes.begin(), splines->notes.begin(), splines->notes.end());
+    return out;
+  }
   if (extension == ".g2") return write_model_g2(model);
   if (extension == ".step" || extension == ".stp") return written_cad(model, CadFormat::step);
   if (extension == ".iges" || extension == ".igs") return written_cad(model, CadFormat::iges);
   if (extension == ".brep") return written_cad(model, CadFormat::brep);
-  if (extension == ".json" || extension.empty()) return WrittenModel{write_model_json(model), {}};
+  if (is_json) return WrittenModel{write_model_json(model), {}};
   return Error{ErrorCode::usage, "convert", "OUT ends in .json, .g2, .step, .iges or .brep (meshes: plot)", to};
 }
 
-int run(const std::string& from, const std::string& to, Decimals decimals) {
+int run(const std::string& from, const std::string& to, Decimals decimals, int cells) {
   const Result<ModelFile> file = read_any(from, decimals);
   if (!file) return report_error(file.error());
   std::error_code ignored;
   if (to != "-" && std::filesystem::equivalent(from, to, ignored))
     return report_error({ErrorCode::usage, "convert", "would overwrite its input", to});
   const Result<WrittenModel> out =
-      std::visit([&](const auto& model) { return written(model, to == "-" ? "" : to); }, file->model);
+      std::visit([&](const auto& model) { return written(model, to == "-" ? "" : to, cells); }, file->model);
   if (!out) return report_error(out.error());
   if (const int failed = write_output(to, out->bytes)) return failed;
   for (const auto* notes : {&file->notes, &out->notes})
@@ -102,8 +110,14 @@ void add_convert(CLI::App& app, int& exit_code) {
   command->add_option("out", *to, "file to write, its extension chooses the format; '-': JSON on standard output")
       ->required()
       ->type_name("OUT");
+  const auto cells = std::make_shared<int>(kApproximationCells);
+  command
+      ->add_option("--cells", *cells,
+                   "cells along each side of the B-spline patches that stand for Gregory patches in .g2 and CAD files")
+      ->check(CLI::Range(1, 64))
+      ->option_text("N");
   add_decimals(*command, *decimals);
-  command->callback([=, &exit_code] { exit_code = run(*from, *to, *decimals); });
+  command->callback([=, &exit_code] { exit_code = run(*from, *to, *decimals, *cells); });
 }
 
 }  // namespace patchproof::cli

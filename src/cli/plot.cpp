@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 struct Options {
   std::vector<std::string> paths;  // models, and where to write
   std::string format;
-  bool basis = false, control = false, no_control = false;
-  int cells = 0, curve = -1, patch = -1, solid = -1;
-  bool has_cells = false, has_curve = false, has_patch = false, has_solid = false;
+  bool basis = false, control = false, no_control = false, normals = false;
+  int cells = 0, curve = -1, patch = -1, solid = -1, sections = 0;
+  bool has_sections = false, has_cells = false, has_curve = false, has_patch = false, has_solid = false;
   Decimals decimals = Decimals::exact;
 };
 
@@ -74,6 +74,8 @@ int run(const Options& o) {
   PlotOptions options;
   options.basis = o.basis;
   if (o.control || o.no_control) options.control = o.control;
+  options.normals = o.normals;
+  if (o.has_sections) options.sections = o.sections;
   if (o.has_cells) options.cells = o.cells;
   if (o.has_curve) options.curve = o.curve;
   if (o.has_patch) options.patch = o.patch;
@@ -111,8 +113,13 @@ void add_plot(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"svg", "obj", "stl", "vtu", "glb"}))
       ->option_text("svg|obj|stl|vtu|glb");
   command->add_flag("--basis", o->basis, "the basis functions over their knots instead of the geometry");
-  CLI::Option* control = command->add_flag("--control", o->control, "control nets of patches, too");
+  CLI::Option* control =
+      command->add_flag("--control", o->control, "control nets of patches, too; of Gregory patches those of U and V");
   command->add_flag("--no-control", o->no_control, "no control polygons")->excludes(control);
+  command->add_flag("--normals", o->normals, "normals at edges and, from both sides, at knot lines of patches");
+  CLI::Option* sections = command->add_option("--sections", o->sections, "so many sections z = const of the surfaces")
+                              ->check(CLI::Range(1, 1000))
+                              ->option_text("N");
   CLI::Option* cells = command->add_option("--cells", o->cells, "cells in each span of the knots")
                            ->check(CLI::Range(1, 1000000))
                            ->option_text("N");
@@ -121,6 +128,7 @@ void add_plot(CLI::App& app, int& exit_code) {
   CLI::Option* solid = command->add_option("--solid", o->solid, "only this solid, from 0")->option_text("I");
   add_decimals(*command, o->decimals);
   command->callback([=, &exit_code] {
+    o->has_sections = sections->count() > 0;
     o->has_cells = cells->count() > 0;
     o->has_curve = curve->count() > 0;
     o->has_patch = patch->count() > 0;

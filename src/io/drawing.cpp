@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/drawing.h"
+#include "io/drawing_patches.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "io/mesh_parts.h"
-#include "patchproof/mesh/tessellate_transfinite.h"
 #include "patchproof/spline/bezier_extraction.h"
 
 namespace patchproof {
@@ -22,14 +21,6 @@ template <ExactField T>
 std::string label_of(const T& t) {
   const std::string exact = to_text(t);
   return exact.size() <= 6 ? exact : fmt::format("{:.4g}", nearest_double(t));
-}
-
-template <ExactField T>
-DrawnControl control_of(const Vec<T, 4>& p) {
-  const bool is_vector = p[3] == T(0);
-  DrawnControl out{{}, is_vector};
-  for (std::size_t i = 0; i < 3; ++i) out.at[i] = nearest_double(is_vector ? p[i] : p[i] / p[3]);
-  return out;
 }
 
 // The Bézier points of a polynomial piece of degree 1 to 3.
@@ -84,11 +75,6 @@ Result<CurveDrawing> draw_curve(const ModelCurve<T>& model, int index, int cells
   return out;
 }
 
-template <ExactField T>
-std::size_t spans_of(const BsplinePatch<T, 4>& s) {
-  return (s.knots(Direction::u).breaks().size() - 1) * (s.knots(Direction::v).breaks().size() - 1);
-}
-
 // How long the control net is along u and along v, on average, for each span; nothing when doubles cannot tell.
 template <ExactField T>
 std::optional<std::array<double, 2>> span_lengths(const BsplinePatch<T, 4>& s) {
@@ -116,9 +102,13 @@ std::vector<std::array<int, 2>> even_cells(const Model<T>& model, const std::vec
   std::vector<std::optional<std::array<double, 2>>> lengths;
   double area = 0;
   for (const int i : patches) {
-    lengths.push_back(span_lengths(model.patches[i].surface));
-    if (lengths.back())
-      area += static_cast<double>(spans_of(model.patches[i].surface)) * (*lengths.back())[0] * (*lengths.back())[1];
+    if (const GregoryPatch<T>* gregory = gregory_patch(model, i)) {
+      const auto of_u = span_lengths(gregory->u_surface()), of_v = span_lengths(gregory->v_surface());
+      lengths.push_back(of_u && of_v ? std::optional(std::array{(*of_v)[0], (*of_u)[1]}) : std::nullopt);
+    } else {
+      lengths.push_back(span_lengths(model.patches[i].surface));
+    }
+    if (lengths.back()) area += static_cast<double>(spans_of(model, i)) * (*lengths.back())[0] * (*lengths.back())[1];
   }
   const double size = std::sqrt(area / kPictureQuadrangles);
   std::vector<std::array<int, 2>> out;
@@ -142,63 +132,13 @@ Result<PatchDrawing> draw_patch(const ModelPatch<T>& model, int index, std::arra
                    cells,
                    model.is_rational,
                    {},
-                   {s.count(Direction::u), s.count(Direction::v)},
-                   {}};
+                   {s.count(Direction::u), s.count(Direction::v)}};
   auto pieces = tessellate(s, out.cells);
   if (!pieces) return Error{pieces.error().code, out.name, pieces.error().message, pieces.error().where};
   out.pieces = std::move(*pieces);
-  if (!control) return out;
-  for (const Vec<T, 4>& p : s.net()) {
-    out.controls.push_back(control_of(p));
-    if (!detail::is_finite(out.controls.back().at))
-      return Error{ErrorCode::bad_number, out.name, "a control point is no finite number in doubles", ""};
+  if (control) {
+    if (auto error = add_net(out, s)) return *error;
   }
-  return out;
-}
-
-// How many spans the six faces have together.
-template <ExactField T>
-std::size_t face_spans(const TransfiniteMap<T, 3, 4>& map) {
-  std::array<std::size_t, 3> n{};
-  for (std::size_t s = 0; s < 3; ++s) n[s] = breaks(map, s).size() - 1;
-  return 2 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]);
-}
-
-// The six faces of the grid: for each axis and end, the vertices with the other two indices running.
-void add_faces(std::vector<Tessellation<2>>& faces, const Tessellation<3>& solid) {
-  std::array<std::size_t, 3> count{1, 1, 1}, stride{1, 1, 1};
-  const auto& x = solid.parameters;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    stride[axis] = axis == 0 ? 1 : stride[axis - 1] * count[axis - 1];
-    while (count[axis] * stride[axis] < x.size() &&
-           x[count[axis] * stride[axis]][axis] > x[(count[axis] - 1) * stride[axis]][axis])
-      ++count[axis];
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (const std::size_t end : {std::size_t{0}, count[axis] - 1}) {
-      const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
-      Tessellation<2> face{{CellKind::cuboid, 2, {}, {}}, {}, {}};
-      for (std::size_t j = 0; j < count[b]; ++j)
-        for (std::size_t i = 0; i < count[a]; ++i) {
-          const std::size_t v = end * stride[axis] + i * stride[a] + j * stride[b];
-          face.mesh.vertices.push_back(solid.mesh.vertices[v]);
-          face.parameters.push_back({{x[v][a], x[v][b]}});
-        }
-      const std::array shape{static_cast<int>(count[a]) - 1, static_cast<int>(count[b]) - 1};
-      face.mesh.corners = detail::grid_cuboids(shape);
-      faces.push_back(std::move(face));
-    }
-}
-
-template <ExactField T>
-Result<PatchDrawing> draw_solid(const ModelSolid<T>& model, int index, int cells) {
-  PatchDrawing out;
-  out.is_solid = true;
-  out.name = title_of("solid", index, model.name);
-  out.cells = {cells, cells};
-  const auto pieces = tessellate(model.map, cells);
-  if (!pieces) return Error{pieces.error().code, out.name, pieces.error().message, pieces.error().where};
-  for (const Tessellation<3>& piece : *pieces) add_faces(out.pieces, piece);
   return out;
 }
 
@@ -296,7 +236,9 @@ Result<Chosen> chosen(const Model<T>& model, const PlotOptions& options) {
     });
   };
   if (auto error = choose(out.curves, model.curves.size(), options.curve, "curve", "curves")) return *error;
-  if (auto error = choose(out.patches, model.patches.size(), options.patch, "patch", "patches")) return *error;
+  if (auto error =
+          choose(out.patches, model.patches.size() + model.gregory_patches.size(), options.patch, "patch", "patches"))
+    return *error;
   if (auto error = choose(out.solids, model.solids.size(), options.solid, "solid", "solids")) return *error;
   if (all && !options.basis) std::erase_if(out.patches, is_control);
   return out;
@@ -312,7 +254,7 @@ Result<Drawing> draw(const Model<T>& model, const PlotOptions& options) {
   if (!which) return which.error();
   Drawing out;
   std::size_t spans = 0, edges = 0;
-  for (const int i : which->patches) spans += spans_of(model.patches[i].surface);
+  for (const int i : which->patches) spans += spans_of(model, i);
   for (const int i : which->solids) spans += face_spans(model.solids[i].map);
   for (const int i : which->curves) edges += model.curves[i].curve.knots().breaks().size() - 1;
   const int cells = options.cells.value_or(picture_cells(spans));
@@ -329,7 +271,9 @@ Result<Drawing> draw(const Model<T>& model, const PlotOptions& options) {
   if (!options.cells) patch_cells = even_cells(model, which->patches, cells);
   for (std::size_t k = 0; k < which->patches.size(); ++k) {
     const int i = which->patches[k];
-    auto drawn = draw_patch(model.patches[i], i, patch_cells[k], options.control.value_or(false));
+    const bool control = options.control.value_or(false);
+    auto drawn = gregory_patch(model, i) ? draw_gregory(model, i, patch_cells[k], control)
+                                         : draw_patch(model.patches[i], i, patch_cells[k], control);
     if (!drawn) return drawn.error();
     out.patches.push_back(std::move(*drawn));
   }
@@ -338,6 +282,12 @@ Result<Drawing> draw(const Model<T>& model, const PlotOptions& options) {
     if (!drawn) return drawn.error();
     out.patches.push_back(std::move(*drawn));
   }
+  if (options.normals) {
+    auto normals = normals_along_lines(model, which->patches);
+    if (!normals) return normals.error();
+    out.normals = std::move(*normals);
+  }
+  if (options.sections) out.levels = section_levels(out.patches, *options.sections);
   return out;
 }
 
@@ -362,9 +312,9 @@ Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOp
     add(title_of("curve", i, c.name), c.curve.knots(), std::move(weights));
   }
   for (const int i : which->patches) {
-    const ModelPatch<T>& p = model.patches[i];
     for (const Direction d : {Direction::u, Direction::v})
-      add(title_of("patch", i, p.name) + (d == Direction::u ? " along u" : " along v"), p.surface.knots(d), {});
+      add(title_of("patch", i, patch_name(model, i)) + (d == Direction::u ? " along u" : " along v"),
+          patch_knots(model, i, d), {});
   }
   std::vector<BasisDrawing> out;
   std::size_t cells_drawn = 0;

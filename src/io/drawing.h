@@ -37,6 +37,17 @@ struct CurveDrawing {
   std::vector<DrawnControl> controls;
 };
 
+struct DrawnNet {
+  std::array<int, 2> count{};  // control points along u and v; v runs fastest
+  std::vector<DrawnControl> controls;
+};
+
+// A unit normal; which side of its line the limit is from.
+struct DrawnNormal {
+  Point3 at, direction;
+  bool from_left;
+};
+
 // A patch, or a solid.
 struct PatchDrawing {
   bool is_solid = false;
@@ -44,8 +55,8 @@ struct PatchDrawing {
   std::array<int, 2> degree{}, cells{};  // cells in each span
   bool is_rational = false;
   std::vector<Tessellation<2>> pieces;
-  std::array<int, 2> count{};  // control points along u and v; v runs fastest
-  std::vector<DrawnControl> controls;
+  std::array<int, 2> count{};  // control points along u and v; none: a Gregory patch
+  std::vector<DrawnNet> nets;
 };
 
 // Parameters t stand at (t − first knot)/(last knot − first knot), computed exactly.
@@ -70,6 +81,8 @@ struct BasisDrawing {
 struct Drawing {
   std::vector<CurveDrawing> curves;
   std::vector<PatchDrawing> patches;
+  std::vector<DrawnNormal> normals;
+  std::vector<double> levels;  // of sections z = …
 };
 
 // The curves and patches that the options choose.

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <iterator>
 
-#include "io/drawing.h"
+#include "io/drawing_patches.h"
+#include "io/mesh_parts.h"
 #include "patchproof/io/mesh_files.h"
 #include "patchproof/mesh/tessellate_transfinite.h"
 
@@ -29,6 +32,45 @@ std::optional<Error> add_parts(std::vector<MeshPart>& parts, const std::string& 
   return std::nullopt;
 }
 
+void add_segment(MeshPart& part, const Point3& a, const Point3& b) {
+  const int first = static_cast<int>(part.mesh.vertices.size());
+  part.mesh.vertices.insert(part.mesh.vertices.end(), {a, b});
+  part.mesh.corners.insert(part.mesh.corners.end(), {first, first + 1});
+}
+MeshPart lines_named(std::string name) { return {std::move(name), {CellKind::cuboid, 1, {}, {}}, {}, {}}; }
+
+// Of the surfaces among these parts.
+std::vector<MeshPart> sections_of(const std::vector<MeshPart>& parts, int count) {
+  std::vector<const MeshPart*> surfaces;
+  for (const MeshPart& part : parts)
+    if (part.mesh.dimension == 2) surfaces.push_back(&part);
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const MeshPart* part : surfaces)
+    for (const Point3& p : part->mesh.vertices) low = std::min(low, p[2]), high = std::max(high, p[2]);
+  std::vector<MeshPart> out;
+  for (const double level : section_levels(low, high, count)) {
+    MeshPart lines = lines_named(fmt::format("section z = {:.6g}", level));
+    for (const MeshPart* part : surfaces)
+      for (std::size_t c = 0; c < part->mesh.cell_count(); ++c) {
+        const std::vector<int> v = polygon(part->mesh, c);
+        const auto at = [&](std::size_t k) { return part->mesh.vertices[v[k]]; };
+        for (const auto& [a, b] : section({at(0), at(1), at(2), at(3)}, level)) add_segment(lines, a, b);
+      }
+    if (!lines.mesh.corners.empty()) out.push_back(std::move(lines));
+  }
+  return out;
+}
+
+void add_normals(std::vector<MeshPart>& parts, const std::vector<DrawnNormal>& normals) {
+  const double length = normal_length(normals);
+  for (const bool left : {true, false}) {
+    MeshPart lines = lines_named(left ? "normals from the left" : "normals from the right");
+    for (const DrawnNormal& n : normals)
+      if (n.from_left == left) add_segment(lines, n.at, n.at + length * n.direction);
+    if (!lines.mesh.corners.empty()) parts.push_back(std::move(lines));
+  }
+}
+
 template <ExactField T>
 Result<std::vector<MeshPart>> parts_of(const Model<T>& model, bool surfaces_only, const PlotOptions& options) {
   const Result<Chosen> which = chosen(model, options);
@@ -43,14 +85,24 @@ Result<std::vector<MeshPart>> parts_of(const Model<T>& model, bool surfaces_only
   }
   const int cells = options.cells.value_or(kPatchCells);
   for (const int i : which->patches) {
-    const ModelPatch<T>& p = model.patches[i];
-    if (auto error = add_parts(parts, title_of("patch", i, p.name), tessellate(p.surface, {cells, cells})))
+    const GregoryPatch<T>* gregory = gregory_patch(model, i);
+    if (auto error = add_parts(
+            parts, title_of("patch", i, patch_name(model, i)),
+            gregory ? tessellate(*gregory, {cells, cells}) : tessellate(model.patches[i].surface, {cells, cells})))
       return *error;
+  }
+  std::vector<MeshPart> lines;
+  if (options.sections) lines = sections_of(parts, *options.sections);
+  if (options.normals) {
+    const auto normals = normals_along_lines(model, which->patches);
+    if (!normals) return normals.error();
+    add_normals(lines, *normals);
   }
   for (const int i : which->solids) {
     const ModelSolid<T>& s = model.solids[i];
     if (auto error = add_parts(parts, title_of("solid", i, s.name), tessellate(s.map, cells))) return *error;
   }
+  std::move(lines.begin(), lines.end(), std::back_inserter(parts));
   return parts;
 }
 
@@ -74,8 +126,13 @@ Result<std::string> plot(const Model<T>& model, PlotFormat format, const PlotOpt
     return Error{ErrorCode::usage, "--cells", "at least one cell in each span", std::to_string(*options.cells)};
   if (options.basis && format != PlotFormat::svg)
     return Error{ErrorCode::usage, "--basis", "basis functions are drawn as svg only", ""};
-  if (model.curves.empty() && model.patches.empty() && model.solids.empty() && !options.curve && !options.patch &&
-      !options.solid)
+  if (options.sections && *options.sections < 1)
+    return Error{ErrorCode::usage, "--sections", "at least one section", std::to_string(*options.sections)};
+  if ((options.normals || options.sections) && (format == PlotFormat::stl || options.basis))
+    return Error{ErrorCode::usage, options.normals ? "--normals" : "--sections",
+                 options.basis ? "graphs of functions have none" : "stl holds triangles only, no lines", ""};
+  if (model.curves.empty() && model.patches.empty() && model.gregory_patches.empty() && model.solids.empty() &&
+      !options.curve && !options.patch && !options.solid)
     return Error{ErrorCode::usage, "plot", "there is nothing to draw: the model has no curves, patches or solids", ""};
   if (options.basis) {
     const auto panels = draw_basis(model, options);

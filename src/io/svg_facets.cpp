@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/drawing_patches.h"
+
 namespace patchproof {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr int kIsolines = 4;  // at most so many intervals between isoparametric
 struct Facet {
   double depth;
   std::string path, colour;
-  std::string strong, faint;  // its edges that are lines of the knots, and other isoparametric lines
+  std::string strong, faint, sections;  // its edges that are lines of the knots, and other isoparametric lines
 };
 
 // Facets are many: tenths of a page unit are enough for them, and their file is shorter.
@@ -33,7 +35,8 @@ int cells_along_u(const Tessellation<2>& piece) {
   return static_cast<int>(vertices) - 1;
 }
 
-void collect(std::vector<Facet>& facets, const PatchDrawing& patch, const Tessellation<2>& piece, const View& view) {
+void collect(std::vector<Facet>& facets, const PatchDrawing& patch, const Tessellation<2>& piece,
+             const std::vector<double>& levels, const View& view) {
   const auto& mesh = piece.mesh;
   const int wide = cells_along_u(piece);
   const auto step = [](int cells) {
@@ -60,6 +63,15 @@ void collect(std::vector<Facet>& facets, const PatchDrawing& patch, const Tessel
       else if (line % step(patch.cells[direction]) == 0)
         f.faint += edge;
     }
+    const auto [low, high] = std::minmax({p[0][2], p[1][2], p[2][2], p[3][2]});
+    const auto [back, front] = std::minmax({view.depth(p[0]), view.depth(p[1]), view.depth(p[2]), view.depth(p[3])});
+    // Sections come after the neighbours, whose strokes would cover their ends.
+    Facet lines{f.depth + 2 * (front - back), "", "", "", "", ""};
+    for (auto at_level = std::lower_bound(levels.begin(), levels.end(), low);
+         at_level != levels.end() && *at_level <= high; ++at_level)
+      for (const auto& [a, b] : section(p, *at_level))
+        lines.sections += command('M', {view.place(a)}) + command('L', {view.place(b)});
+    if (!lines.sections.empty()) facets.push_back(std::move(lines));
     facets.push_back(std::move(f));
   }
 }
@@ -74,36 +86,63 @@ bool has_inner_knots(const PatchDrawing& patch) {
   });
 }
 
-void draw_facets(pugi::xml_node root, const std::vector<PatchDrawing>& patches, const View& view) {
+void draw_facets(pugi::xml_node root, const std::vector<PatchDrawing>& patches, const std::vector<double>& levels,
+                 const View& view) {
   std::vector<Facet> facets;
   for (const PatchDrawing& patch : patches)
-    for (const auto& piece : patch.pieces) collect(facets, patch, piece, view);
+    for (const auto& piece : patch.pieces) collect(facets, patch, piece, levels, view);
   std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.depth < b.depth; });
   if (facets.empty()) return;
   pugi::xml_node group = add(root, "g", {{"class", "patches"}, {"stroke-width", "0.6"}});
   for (const Facet& f : facets) {
     // The stroke of the fill's colour hides the seams between neighbours.
-    add(group, "path", {{"class", "facet"}, {"d", f.path}, {"fill", f.colour}, {"stroke", f.colour}});
+    if (!f.path.empty())
+      add(group, "path", {{"class", "facet"}, {"d", f.path}, {"fill", f.colour}, {"stroke", f.colour}});
     if (!f.faint.empty()) add(group, "path", {{"d", f.faint}, {"stroke", "#33506e"}, {"opacity", "0.4"}});
     if (!f.strong.empty()) add(group, "path", {{"d", f.strong}, {"stroke", "#1f3247"}, {"stroke-width", "1.1"}});
+    if (!f.sections.empty())
+      add(group, "path",
+          {{"class", "section"},
+           {"d", f.sections},
+           {"stroke", kSection},
+           {"stroke-width", "1.3"},
+           {"stroke-linecap", "round"}});
+  }
+}
+
+void draw_normals(pugi::xml_node root, const std::vector<DrawnNormal>& normals, double length, const View& view) {
+  if (normals.empty()) return;
+  for (const bool left : {false, true}) {
+    std::string lines;
+    for (const DrawnNormal& n : normals)
+      if (n.from_left == left)
+        lines += command('M', {view.place(n.at)}) + command('L', {view.place(n.at + length * n.direction)});
+    if (lines.empty()) continue;
+    // The one below is wider, so that both are seen where they are the same.
+    add(root, "path",
+        {{"class", "normals"},
+         {"d", lines},
+         {"stroke", left ? kFromLeft : kFromRight},
+         {"stroke-width", left ? "0.9" : "1.8"}});
   }
 }
 
 void draw_net(pugi::xml_node root, const PatchDrawing& patch, const View& view) {
-  if (patch.controls.empty()) return;
-  pugi::xml_node group = add(root, "g", {{"class", "net"}, {"stroke", kAccent}, {"stroke-width", "0.9"}});
-  const auto at = [&](int i, int j) -> const DrawnControl& { return patch.controls[i * patch.count[1] + j]; };
-  std::string lines;
-  for (int i = 0; i < patch.count[0]; ++i)
-    for (int j = 0; j < patch.count[1]; ++j) {
-      if (at(i, j).is_vector) continue;
-      const PagePoint p = view.place(at(i, j).at);
-      for (const auto& [k, l] : {std::array{i + 1, j}, std::array{i, j + 1}})
-        if (k < patch.count[0] && l < patch.count[1] && !at(k, l).is_vector)
-          lines += command('M', {p}) + command('L', {view.place(at(k, l).at)});
-      add(group, "circle", {{"cx", page_number(p.x)}, {"cy", page_number(p.y)}, {"r", "2.2"}, {"fill", kAccent}});
-    }
-  if (!lines.empty()) add(group, "path", {{"d", lines}, {"opacity", "0.8"}});
+  for (const DrawnNet& net : patch.nets) {
+    pugi::xml_node group = add(root, "g", {{"class", "net"}, {"stroke", kAccent}, {"stroke-width", "0.9"}});
+    const auto at = [&](int i, int j) -> const DrawnControl& { return net.controls[i * net.count[1] + j]; };
+    std::string lines;
+    for (int i = 0; i < net.count[0]; ++i)
+      for (int j = 0; j < net.count[1]; ++j) {
+        if (at(i, j).is_vector) continue;
+        const PagePoint p = view.place(at(i, j).at);
+        for (const auto& [k, l] : {std::array{i + 1, j}, std::array{i, j + 1}})
+          if (k < net.count[0] && l < net.count[1] && !at(k, l).is_vector)
+            lines += command('M', {p}) + command('L', {view.place(at(k, l).at)});
+        add(group, "circle", {{"cx", page_number(p.x)}, {"cy", page_number(p.y)}, {"r", "2.2"}, {"fill", kAccent}});
+      }
+    if (!lines.empty()) add(group, "path", {{"d", lines}, {"opacity", "0.8"}});
+  }
 }
 
 }  // namespace patchproof

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/drawing.h"
+#include "io/drawing_patches.h"
 #include "io/svg_facets.h"
 #include "io/svg_layers.h"
 #include "io/svg_page.h"
@@ -40,8 +40,9 @@ class Scene {
     Page page(legend_top + legend.height() + 12, title_, subtitle_);
     pugi::xml_node root = page.root();
     if (plane_) axes(root, left - 14, kPageWidth - kMargin + 14, top - 14, bottom);
-    draw_facets(root, drawing_.patches, view_);
+    draw_facets(root, drawing_.patches, drawing_.levels, view_);
     for (const PatchDrawing& patch : drawing_.patches) draw_net(root, patch, view_);
+    draw_normals(root, drawing_.normals, normal_length_, view_);
     pugi::xml_node under = add(root, "g", {{"class", "control"}}), over = add(root, "g", {{"class", "curves"}});
     Labels labels(add(root, "g", {{"class", "labels"}}), 4, top - 16, kPageWidth - 4, bottom + 2);
     for (std::size_t i = 0; i < drawing_.curves.size() && has_labels(); ++i)
@@ -86,10 +87,14 @@ class Scene {
     }
     if (patches == 1 && curves == 0) {
       const PatchDrawing& p = drawing_.patches[0];
-      subtitle_ = p.is_solid ? p.name
-                             : titled(p.name, fmt::format("{}degree {} × {}, {} × {} control points",
-                                                          p.is_rational ? "rational, " : "", p.degree[0], p.degree[1],
-                                                          p.count[0], p.count[1]));
+      if (p.count[0] == 0 && !p.is_solid)
+        subtitle_ = titled(p.name, fmt::format("{}Gregory patch, degree {} × {}", p.is_rational ? "rational " : "",
+                                               p.degree[0], p.degree[1]));
+      else
+        subtitle_ = p.is_solid ? p.name
+                               : titled(p.name, fmt::format("{}degree {} × {}, {} × {} control points",
+                                                            p.is_rational ? "rational, " : "", p.degree[0], p.degree[1],
+                                                            p.count[0], p.count[1]));
       return;
     }
     const std::size_t solids = std::count_if(drawing_.patches.begin(), drawing_.patches.end(),
@@ -114,8 +119,10 @@ class Scene {
     for (const PatchDrawing& p : drawing_.patches) {
       for (const auto& piece : p.pieces)
         for (const Point3& v : piece.mesh.vertices) view_.include(v);
-      include(p.controls);
+      for (const DrawnNet& net : p.nets) include(net.controls);
     }
+    normal_length_ = normal_length(drawing_.normals);
+    for (const DrawnNormal& n : drawing_.normals) view_.include(n.at + normal_length_ * n.direction);
   }
   void include(const std::vector<DrawnControl>& controls) {
     for (std::size_t i = 0; i < controls.size(); ++i) {
@@ -303,9 +310,14 @@ class Scene {
                    "#4a6a8c", "1.3");
     if (std::any_of(patches.begin(), patches.end(), [](const auto& p) { return std::max(p.cells[0], p.cells[1]) > 1; }))
       out.add_line("parameter lines", "#4a6a8c", "0.6");
-    if (std::any_of(drawing_.patches.begin(), drawing_.patches.end(),
-                    [](const auto& p) { return !p.controls.empty(); }))
+    if (std::any_of(drawing_.patches.begin(), drawing_.patches.end(), [](const auto& p) { return !p.nets.empty(); }))
       out.add_line("control net", kAccent, "0.9");
+    const auto is_left = [](const DrawnNormal& n) { return n.from_left; };
+    if (std::any_of(drawing_.normals.begin(), drawing_.normals.end(), is_left))
+      out.add_line("normal from the left of a line", kFromLeft, "0.9");
+    if (!std::all_of(drawing_.normals.begin(), drawing_.normals.end(), is_left))
+      out.add_line("from the right", kFromRight, "1.8");
+    if (!drawing_.levels.empty()) out.add_line("sections z = const", kSection, "1.3");
     return out;
   }
 
@@ -326,6 +338,7 @@ class Scene {
   const Drawing& drawing_;
   bool show_polygons_, plane_;
   View view_;
+  double normal_length_ = 0;
   std::string title_, subtitle_;
   std::vector<std::vector<std::vector<double>>> dashes_;  // of the curves: svg_layers.h
 };

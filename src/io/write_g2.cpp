@@ -94,7 +94,12 @@ class G2Writer {
 
 template <ExactField T>
 Result<WrittenModel> write_model_g2(const Model<T>& model) {
-  return G2Writer<T>().write(model);
+  if (model.gregory_patches.empty()) return G2Writer<T>().write(model);
+  Result<SplinesOnly<T>> splines = with_splines_only(model);
+  if (!splines) return splines.error();
+  Result<WrittenModel> out = G2Writer<T>().write(splines->model);
+  if (out) out->notes.insert(out->notes.begin(), splines->notes.begin(), splines->notes.end());
+  return out;
 }
 
 template Result<WrittenModel> write_model_g2(const Model<Rational>&);

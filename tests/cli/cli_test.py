@@ -17,6 +17,7 @@ if len(sys.argv) < 3:
 from command import CUP, DATA, EXAMPLES, KINK, PROGRAM, SPHERE, Command, run
 from convert_cases import Convert, Profiles
 from curve_cases import Curves
+from fill_cases import Fill
 
 
 class Certify(Command):

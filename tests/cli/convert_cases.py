@@ -2,7 +2,7 @@
 """convert by extension, and profiles of thresholds: cases of cli_test.py."""
 import json
 
-from command import CUP, SPHERE, Command, run
+from command import CUP, ROOT, SPHERE, Command, run
 
 
 class Convert(Command):
@@ -35,6 +35,20 @@ class Convert(Command):
                 for a, b in zip(points, points_back, strict=True):
                     self.assertAlmostEqual(a, b, delta=1e-12)
             self.assertIn(b"untrimmed", self.expect(0, "convert", out, self.dir / "back.json").stderr)
+
+    def test_gregory_patches_are_approximated_and_said_so(self):
+        filled = self.dir / "filled.json"
+        self.expect(0, "fill", ROOT / "examples/meshes/two_faces.json", filled)
+        bounds = []
+        for cells in (2, 8, 32):
+            done = self.expect(0, "convert", "--cells", cells, filled, self.dir / "out.g2")
+            note = done.stderr.decode()
+            self.assertIn("2 of 2 Gregory patches approximated", note)
+            bounds.append(float(note.split("points within ")[1].split()[0]))
+        self.assertEqual(bounds, sorted(bounds, reverse=True))
+        self.assertEqual(len(self.surfaces(self.dir / "out.g2")), 2)
+        self.assertNotIn(b"approximated", self.expect(0, "convert", filled, self.dir / "out.json").stderr)
+        self.assertIn(b"--cells", self.expect(2, "convert", "--cells", "65", filled, self.dir / "no.g2").stderr)
 
     def test_what_cannot_be_written(self):
         self.expect_refusal("convert", CUP, self.dir / "out.stl", names=["out.stl", ".step"])

@@ -52,6 +52,24 @@ class Plot(unittest.TestCase):
         self.assertNotIn("internal error", message)
         return message
 
+    def test_gregory_patches(self):
+        for method, creases in (("new", False), ("former", True)):
+            filled = self.dir / f"{method}.json"
+            words = [PROGRAM, "fill", EXAMPLES / "meshes/two_faces.json", filled] + ["--method", "former"] * creases
+            done = subprocess.run(words, capture_output=True, timeout=120)
+            self.assertEqual(done.returncode, 1 if creases else 0, done.stderr)
+            obj = self.write("--normals", "--sections", "3", filled, f"{method}.obj").decode()
+            names = [line[2:] for line in obj.splitlines() if line.startswith("o ")]
+            self.assertEqual(names[:2], ["F1", "F2"])
+            self.assertEqual(names[5:], ["normals from the left", "normals from the right"])
+            svg = ElementTree.fromstring(self.write("--control", "--normals", filled, f"{method}.svg"))
+            self.assertEqual(len([e for e in svg.iter(SVG + "path") if e.get("class") == "normals"]), 2)
+            for name in ("one.stl", "one.vtu", "one.glb"):
+                self.assertGreater(len(self.write("--patch", "1", filled, name)), 1000)
+        self.refuse("--normals", self.dir / "new.json", self.dir / "out.stl", names=["--normals", "no lines"])
+        self.refuse("--sections", "0", self.dir / "new.json", self.dir / "out.svg", names=["--sections"])
+        self.refuse("--patch", "2", self.dir / "new.json", self.dir / "out.svg", names=["patches 0 to 1"])
+
     def test_svg_of_patches_and_curves(self):
         root = ElementTree.fromstring(self.write(CUP, "cup.svg"))
         self.assertEqual(root.tag, SVG + "svg")

@@ -142,6 +142,7 @@ int main(int argc, char** argv) {
   patchproof::bench::register_roofline_benchmarks();
   patchproof::bench::register_kernel_benchmarks();
   patchproof::bench::register_accuracy_benchmarks();
+  patchproof::bench::register_gregory_benchmarks();
   std::vector<std::string> models{source + "/examples/cup.json"};
   benchmark::Initialize(&argc, argv);
   for (int i = 1; i < argc; ++i) {

@@ -9,6 +9,8 @@ namespace patchproof::bench {
 void register_kernel_benchmarks();
 // Points with bounds, enclosures, doubled precision: SURFACE/accurate/points|PEER/METHOD.
 void register_accuracy_benchmarks();
+// Gregory patches beside one of their surfaces: gregory/WHAT|KIND.
+void register_gregory_benchmarks();
 // The limits of the machine: roofline/WHAT|SET.
 void register_roofline_benchmarks();
 

@@ -14,10 +14,13 @@
 //          number where it is a double or a decimal of at most 15 digits), in .g2 as its shortest decimal when that is exact;
 //          (4) what these formats cannot hold is said in notes, and is an error where the geometry would change: knots that
 //          are different and have one nearest double, a number that becomes 0 or infinite, for Open CASCADE a weight that is
-//          not positive, a jump, a degree above 25.
+//          not positive, a jump, a degree above 25;
+//          (5) with_splines_only: a B-spline patch with positive weights in place of each Gregory patch, behind the other patches
+//          and so with its number, with its edges, nearly (gregory_approximate.h); a note says how nearly, by upper bounds.
+//          The formats of doubles are written so, never with the exact patch's zero weights.
 // ERRORS   unsupported, bad_number; `where` is "patch 3", "curve 0".
 // NEIGHBOURS read.h, cad.h
-// TEST     tests/io/write_test.cpp checks (1)–(2), tests/io/write_doubles_test.cpp (3)–(4),
+// TEST     tests/io/write_test.cpp checks (1)–(2), tests/io/write_doubles_test.cpp (3)–(4), tests/io/splines_only_test.cpp (5),
 //          tests/io/occt/write_cad_test.cpp those of CAD formats.
 #pragma once
 
@@ -37,6 +40,17 @@ struct WrittenModel {
   std::string bytes;
   std::vector<std::string> notes;  // what was left out or rounded
 };
+
+// How many cells along each side of a Gregory patch its approximation has (gregory_approximate.h).
+inline constexpr int kApproximationCells = 8;
+
+template <ExactField T>
+struct SplinesOnly {
+  Model<T> model;
+  std::vector<std::string> notes;
+};
+template <ExactField T>
+Result<SplinesOnly<T>> with_splines_only(Model<T> model, int cells = kApproximationCells);
 
 // GoTools' and SISL's .g2: curves, then patches.
 template <ExactField T>

@@ -279,7 +279,12 @@ template <ExactField T>
 Result<WrittenModel> write_model_cad(const Model<T>& model, CadFormat format) {
   const occt::Silence silence;
   try {
-    return CadWriter<T>(model, format).write();
+    if (model.gregory_patches.empty()) return CadWriter<T>(model, format).write();
+    Result<SplinesOnly<T>> splines = with_splines_only(model);
+    if (!splines) return splines.error();
+    Result<WrittenModel> out = CadWriter<T>(splines->model, format).write();
+    if (out) out->notes.insert(out->notes.begin(), splines->notes.begin(), splines->notes.end());
+    return out;
   } catch (const Standard_Failure& failure) {
     return Error{ErrorCode::unsupported, "model", std::string("Open CASCADE: ") + failure.GetMessageString(), ""};
   }
