@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -57,6 +58,29 @@ std::string range_of(const CurveMesh& mesh, const MeshTopology& topology, const 
   return mesh.edges[join.edge].id;
 }
 
+// The largest angle between the tangent planes of faces at one node of an edge, about, in degrees.
+double angle_at_nodes(const MeshTopology& topology, int edge) {
+  std::map<Rational, std::vector<Vec<double, 3>>> normals;
+  for (const std::vector<int>* side : {&topology.left[edge], &topology.right[edge]})
+    for (const int index : *side) {
+      const EdgeUse& use = topology.uses[index];
+      for (const bool at_end : {false, true}) {
+        const Rational& t = at_end ? use.end() : use.begin();
+        const Vec<Rational, 3> n = outward_normal(topology, use, t, at_end ? use.end_derivative : use.begin_derivative);
+        const Rational size = std::max({Rational(abs(n[0])), Rational(abs(n[1])), Rational(abs(n[2]))});
+        normals[t].push_back({{nearest_double(n[0] / size), nearest_double(n[1] / size), nearest_double(n[2] / size)}});
+      }
+    }
+  double largest = 0;
+  for (const auto& at : normals)
+    for (const Vec<double, 3>& n : at.second) {
+      const Vec<double, 3>& first = at.second.front();
+      const Vec<double, 3> c = cross(first, n);
+      largest = std::max(largest, std::atan2(std::sqrt(dot(c, c)), dot(first, n)) * 180 / std::numbers::pi);
+    }
+  return largest;
+}
+
 struct Findings {
   Tally g1, c1, regular;
   std::string lines;
@@ -70,10 +94,12 @@ Findings judge(const CurveMesh& mesh, const MeshTopology& topology, const FillPr
     const std::string place = range_of(mesh, topology, join);
     if (topology.kinds[join.edge] == EdgeKind::sharp) {
       constexpr double kNearlySmooth = 1;  // degrees
-      out.lines +=
-          fmt::format("  {}: sharp, the tangent planes at its nodes differ; largest angle in [{}, {}] degrees{}\n",
-                      place, to_text(c.angle.lower), to_text(c.angle.upper),
-                      c.angle.upper < kNearlySmooth ? " (--repair can make it smooth)" : "");
+      const double at_nodes = angle_at_nodes(topology, join.edge);
+      out.lines += fmt::format(
+          "  {}: sharp, its faces' tangent planes are {:.2g} degrees apart at a node{}; largest angle in [{:.5g}, "
+          "{:.5g}] degrees\n",
+          place, at_nodes, at_nodes < kNearlySmooth ? " (--repair would make them one)" : "", c.angle.lower,
+          c.angle.upper);
       continue;
     }
     const Verdict verdict = c.c0.verdict == Verdict::proven ? c.g1.verdict : c.c0.verdict;
