@@ -130,6 +130,9 @@ Error at(const std::string& path, Error error) {
 }
 
 int run(const Options& options) {
+  if (const std::string extension = std::filesystem::path(options.to).extension().string();
+      extension != ".json" && std::filesystem::path(options.to).has_extension())
+    return report_error({ErrorCode::usage, "fill", "OUT ends in .json; convert makes other formats of it", options.to});
   Result<CurveMeshFile> file = read_curve_mesh(options.from, options.decimals);
   if (!file) return report_error(file.error());
   std::error_code ignored;

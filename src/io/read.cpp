@@ -46,7 +46,10 @@ class JsonKind final : public JsonVisitor {
     if (node == kShape) return found(kGeomdl, walker);
     return node == kCoordinates ? found(kTinyspline, walker) : std::nullopt;
   }
-  std::optional<Error> leaf(int node, std::string_view, const JsonWalker& walker) override {
+  std::optional<Error> leaf(int node, std::string_view text, const JsonWalker& walker) override {
+    if (node == kFormat && text == "patchproof-curve-mesh")
+      return walker.error(ErrorCode::unsupported,
+                          "this is a mesh of curves, no model: patchproof fill makes one of it");
     if (node == kFormat) return found(kModel, walker);
     return walker.error(ErrorCode::unsupported,
                         "rhino3dm's JSON, packed binary data of openNURBS, is not read: export STEP or IGES");

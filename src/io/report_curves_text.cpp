@@ -111,7 +111,7 @@ std::string bound_text(const std::optional<Enclosure>& e) {
 }
 
 bool is_asked(const Report& r) {
-  if (!r.patch_names.empty()) return false;
+  if (!r.patch_names.empty() || r.profile) return false;  // a profile asks nothing of curves
   return r.request.require || r.request.gap_tolerance || r.request.angle_tolerance || r.curves->curvature_tolerance;
 }
 

@@ -40,8 +40,10 @@ std::string side_text(const Report& r, const ReportedSide& s, bool part) {
   return part ? fmt::format("{}[{:.6g}, {:.6g}]", edge, std::min(s.begin, s.end), std::max(s.begin, s.end)) : edge;
 }
 
-std::string place_text(const Certificate& c) {
-  const Place& p = c.angle.upper > 0 ? c.angle.at : c.gap.at;
+// That of the angle, but of a gap that exceeds what is allowed.
+std::string place_text(const Certificate& c, const Request& request) {
+  const bool wide = request.gap_tolerance && c.gap.lower > *request.gap_tolerance;
+  const Place& p = c.angle.upper > 0 && !wide ? c.angle.at : c.gap.at;
   if (c.angle.upper == 0 && c.gap.upper == 0) return "";
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.point[0], p.point[1], p.point[2]);
 }
@@ -74,7 +76,7 @@ void write_rows(std::ostream& out, const Report& r, const TableStyle& style) {
     rows.push_back({std::to_string(j->id), side_text(r, j->a, part),
                     side_text(r, j->b, part) + (j->reversed ? " ↔" : ""), cls, bound_text(c.gap),
                     bound_text(c.angle) + (c.angle.upper > 90 ? " (planes " + bound_text(c.plane_angle) + ")" : ""),
-                    place_text(c)});
+                    place_text(c, r.request)});
   }
   std::array<long, 7> widths{};
   for (const auto& row : rows)
@@ -188,6 +190,16 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     if (r.joins.empty())
       out << "; no edges meet within " << fmt::format("{:.3g}", r.match_length) << ", nothing was judged";
     if (!r.joins.empty() && !r.unmatched.empty()) out << "; free edges are not judged";
+    const auto sharp = std::count_if(r.joins.begin(), r.joins.end(),
+                                     [](const ReportedJoin& j) { return j.edge_class == EdgeClass::sharp; });
+    if (sharp > 0 && (r.request.angle_tolerance || r.request.require))
+      out << fmt::format("; no tangents are asked of {} sharp edges", sharp);
+    if (r.profile) {
+      const auto& criteria = r.profile->criteria;
+      const auto checked = std::count_if(criteria.begin(), criteria.end(),
+                                         [&](const Criterion& c) { return tolerance_of(r, c).has_value(); });
+      out << fmt::format("; {} of {} criteria are checked", checked, criteria.size());
+    }
     out << '\n';
   }
   if (r.profile) write_profile(out, r);

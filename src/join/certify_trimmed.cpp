@@ -7,6 +7,7 @@
 #include "patchproof/join/trimmed_join.h"
 #include "patchproof/patch/rational_patch.h"
 #include "patchproof/scalar/parse_scalar.h"
+#include "trimmed_distance.h"
 
 namespace patchproof {
 namespace {
@@ -63,6 +64,21 @@ Witness gap_witness(const TrimmedJoin& join, const Rational& t) {
           {to_text(difference[0]), to_text(difference[1]), to_text(difference[2])}};
 }
 
+// A tolerance is exceeded when a point of one edge is farther than that from the whole of the other, not when two points
+// that belong to one parameter are: parameter curves that a reader had to make up pair points along the edge, too.
+void hold_against_whole_edges(EnclosedMaximum& gap, const TrimmedJoin& join, const Rational& t, double tolerance) {
+  try {
+    const Vec<Rational, 3> a = point_at(join.a, parameters_at(join.a, t)),
+                           b = point_at(join.b, parameters_at(join.b, t));
+    const double apart = std::max(distance_from_edge(a, join.b, tolerance), distance_from_edge(b, join.a, tolerance));
+    if (apart > tolerance) return;
+    gap.lower = std::min(gap.lower, apart);
+  } catch (const deadline_passed&) {
+    gap.lower = 0;
+  }
+  gap.converged = false;
+}
+
 }  // namespace
 
 Certificate certify_trimmed(const TrimmedJoin& join, const Request& request) {
@@ -79,6 +95,9 @@ Certificate certify_trimmed(const TrimmedJoin& join, const Request& request) {
   Certificate out;
   out.rung = "taylor";
   out.gap = enclosed(join, bounds.gap);
+  const bool has_gap = out.gap.lower > 0;
+  if (request.gap_tolerance && out.gap.lower > *request.gap_tolerance)
+    hold_against_whole_edges(out.gap, join, bounds.gap.t, *request.gap_tolerance);
   out.angle = enclosed(join, bounds.angle);
   out.plane_angle = enclosed(join, bounds.plane_angle);
   for (const TrimmedPole& pole : bounds.poles)
@@ -88,7 +107,7 @@ Certificate certify_trimmed(const TrimmedJoin& join, const Request& request) {
   out.orientation = out.angle.upper < 90   ? Orientation::smooth
                     : out.angle.lower > 90 ? Orientation::mixed  // somewhere above 90°; a cusp only if everywhere
                                            : Orientation::unknown;
-  if (out.gap.lower > 0) {
+  if (has_gap) {
     try {
       out.c0 = {Verdict::refuted, "the edge curves differ", gap_witness(join, bounds.gap.t)};
       for (ExactClass* c : {&out.c1, &out.c2, &out.g1}) *c = {Verdict::refuted, "not C0", std::nullopt};

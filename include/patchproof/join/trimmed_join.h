@@ -75,6 +75,8 @@ TrimmedBounds bound_trimmed(const TrimmedJoin& join, const Budget& budget = {});
 // `slack` of the domains' lengths (rounding leaves them there: 2⁻⁴⁰ is that). The pairing is then that of the edges.
 std::optional<Join<Rational>> to_isoparametric(const TrimmedJoin& join, const Rational& slack = Rational(0));
 
+// Where a tolerance of the gap is asked for and paired points are farther apart, `lower` is the distance of one of them from the
+// whole other edge: a bound that no pairing enters. Only that exceeds a tolerance.
 // What can be said of the join: by certify_join where it is isoparametric, else the bounds (rung "taylor"). Bounds prove no
 // class; a gap with a lower bound above 0 refutes C0, with exact values at the witness.
 Certificate certify_trimmed(const TrimmedJoin& join, const Request& request = {});
