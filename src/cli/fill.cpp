@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "cli/commands.h"
 #include "patchproof/io/curve_mesh_file.h"
@@ -133,6 +136,9 @@ int run(const Options& options) {
   if (const std::string extension = std::filesystem::path(options.to).extension().string();
       extension != ".json" && std::filesystem::path(options.to).has_extension())
     return report_error({ErrorCode::usage, "fill", "OUT ends in .json; convert makes other formats of it", options.to});
+  if (options.repair && !(*options.repair >= 0 && *options.repair <= 30))
+    return report_error(
+        {ErrorCode::usage, "--repair", "an angle from 0 to 30 degrees", fmt::format("{}", *options.repair)});
   Result<CurveMeshFile> file = read_curve_mesh(options.from, options.decimals);
   if (!file) return report_error(file.error());
   std::error_code ignored;
@@ -146,6 +152,15 @@ int run(const Options& options) {
     text += fmt::format("repaired: {} moved, by at most {} {}\n",
                         plural(repaired->moves.size(), "point or vector", "points and vectors"),
                         to_text(repaired->largest), file->units);
+    std::set<std::string> edges;
+    for (const RepairMove& move : repaired->moves)
+      edges.insert(mesh.edges[move.part == RepairMove::Part::left_vector || move.part == RepairMove::Part::right_vector
+                                  ? mesh.control_vectors[move.index].edge
+                                  : move.edge]
+                       .id);
+    if (!edges.empty()) text += fmt::format("  of edges {}\n", fmt::join(edges, ", "));
+    for (const int v : repaired->vertices)
+      text += fmt::format("  vertex {}: its tangents are farther from one plane, and stay\n", mesh.vertices[v].id);
     mesh = std::move(repaired->mesh);
   }
   const std::size_t faces = mesh.faces.size();
@@ -166,7 +181,11 @@ int run(const Options& options) {
   const Result<MeshTopology> topology = analyse(mesh);
   if (!topology) return report_error(at(options.from, topology.error()));
   Result<FilledMesh<Rational>> filled = fill_faces<Rational>(mesh, *topology, fill, options.jobs);
-  if (!filled) return report_error(at(options.from, filled.error()));
+  if (!filled) {
+    Error error = at(options.from, filled.error());
+    if (other > 0) error.message += " (edges F/0, F/1, … are those that face F was split along)";
+    return report_error(error);
+  }
   const FillProof proof = prove_fill(mesh, *topology, filled->patches, {}, options.jobs);
   const Findings findings = judge(mesh, *topology, proof);
 
@@ -176,16 +195,17 @@ int run(const Options& options) {
     model.gregory_patches.push_back({mesh.faces[f].id, std::move(filled->patches[f])});
   if (const int failed = write_output(options.to, write_model_json(model))) return failed;
 
-  if (options.to != "-") {
-    const auto count = [&](EdgeKind kind) { return std::count(topology->kinds.begin(), topology->kinds.end(), kind); };
-    text += fmt::format("{}: {}, {} ({} smooth, {} sharp, {} boundary)\n", options.from,
-                        plural(mesh.faces.size(), "face", "faces"), plural(mesh.edges.size(), "edge", "edges"),
-                        count(EdgeKind::smooth), count(EdgeKind::sharp), count(EdgeKind::boundary));
-    if (!options.quiet) text += findings.lines;
-    text += fmt::format("G1 across smooth edges: {}\nC1 inside patches: {}\nnormal nowhere zero: {}\n",
-                        findings.g1.text(), findings.c1.text(), findings.regular.text());
-    if (const int failed = write_output("-", text)) return failed;
-  }
+  const auto count = [&](EdgeKind kind) { return std::count(topology->kinds.begin(), topology->kinds.end(), kind); };
+  text += fmt::format("{}: {}, {} ({} smooth, {} sharp, {} boundary)\n", options.from,
+                      plural(mesh.faces.size(), "face", "faces"), plural(mesh.edges.size(), "edge", "edges"),
+                      count(EdgeKind::smooth), count(EdgeKind::sharp), count(EdgeKind::boundary));
+  if (!options.quiet) text += findings.lines;
+  text += fmt::format("G1 across smooth edges: {}\nC1 inside patches: {}\nnormal nowhere zero: {}\n",
+                      findings.g1.text(), findings.c1.text(), findings.regular.text());
+  if (options.to == "-")  // where the model is
+    std::fputs(text.c_str(), stderr);
+  else if (const int failed = write_output("-", text))
+    return failed;
   const int codes[] = {findings.g1.exit_code(), findings.c1.exit_code(), findings.regular.exit_code()};
   return std::count(std::begin(codes), std::end(codes), kRefuted) > 0
              ? kRefuted
@@ -198,7 +218,7 @@ void add_fill(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("fill", "fill a mesh of curves with Gregory patches, and prove how they join");
   command->add_option("mesh", options->from, "curve mesh to fill (docs/formats.md)")->required()->type_name("MESH");
-  command->add_option("out", options->to, "model to write; '-': on standard output, nothing else")
+  command->add_option("out", options->to, "model to write; '-': on standard output, and the summary on standard error")
       ->required()
       ->type_name("OUT");
   command

@@ -294,7 +294,8 @@ void put_list(Buffer& out, const char* key, const Elements& elements, Put put_el
 }  // namespace
 
 Result<CurveMeshFile> read_curve_mesh_text(std::string_view bytes, const std::string& path, Decimals decimals) {
-  if (bytes.empty()) return Error{ErrorCode::empty_input, path, "the file is empty", ""};
+  if (bytes.find_first_not_of(" \t\r\n\v\f") == std::string_view::npos)
+    return Error{ErrorCode::empty_input, path, bytes.empty() ? "the file is empty" : "nothing but blanks", ""};
   CurveMeshFile file{path, sha256_of(bytes), "", {}};
   const SourceFile source{path, bytes};
   MeshVisitor visitor(decimals, file);

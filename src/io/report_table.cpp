@@ -149,12 +149,19 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     out << fmt::format("gap      largest {}{}\n", bound_text(gap), r.units.empty() ? "" : " " + escaped(r.units));
     out << fmt::format("angle    largest {} degrees\n", bound_text(angle));
   }
-  const auto degenerate = std::count_if(r.joins.begin(), r.joins.end(), [](const ReportedJoin& j) {
-    return std::any_of(j.certificate.degenerate.begin(), j.certificate.degenerate.end(),
-                       [](const Degeneracy& d) { return d.begin != d.end || d.what.find("no normal") == 0; });
-  });
+  const auto with = [&](auto is_meant) {
+    return std::count_if(r.joins.begin(), r.joins.end(), [&](const ReportedJoin& j) {
+      return std::any_of(j.certificate.degenerate.begin(), j.certificate.degenerate.end(), is_meant);
+    });
+  };
+  const auto is_left_out = [](const Degeneracy& d) { return d.what.find("left out") != std::string::npos; };
+  const auto degenerate =
+      with([&](const Degeneracy& d) { return !is_left_out(d) && (d.begin != d.end || d.what.find("no normal") == 0); });
   if (degenerate > 0)
     out << fmt::format("normals  vanish inside or along {} joins; their limits are used (see --json)\n", degenerate);
+  if (const auto left_out = with(is_left_out); left_out > 0)
+    out << fmt::format(
+        "normals  are rounding errors at an end of {} joins: 2^-24 of the edge is left out of the angle\n", left_out);
   if (!r.collapsed.empty()) {
     const auto planes =
         std::count_if(r.collapsed.begin(), r.collapsed.end(), [](const auto& c) { return c.tangent_plane; });

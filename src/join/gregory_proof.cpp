@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/join/gregory_proof.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -44,17 +45,30 @@ bool is_matched(const BsplinePatch<Rational, 4>& surface, Direction along, const
   return true;
 }
 
+std::vector<Rational> component(const std::vector<Point4>& points, int c) {
+  std::vector<Rational> out;
+  for (const Point4& p : points) out.push_back(p[c]);
+  return out;
+}
+
+// Across a knot line the homogeneous derivative jumps by J(s) = Σ B_i(s) J_i, the surface by none iff J is a multiple of
+// X(s) = Σ B_i(s) R_i at every s: iff the polynomials J_k X_4 − J_4 X_k vanish.
 bool has_c1_rows(const BsplinePatch<Rational, 4>& surface, Direction along) {
   const KnotVector<Rational>& knots = surface.knots(along);
   for (const Rational& t : knots.breaks()) {
     // A B-spline is C^(degree − multiplicity); where that is less than C¹ its control points decide.
     if (t <= 0 || t >= 1 || knots.multiplicity(t) < knots.degree()) continue;
+    std::vector<Point4> position, jump;
     for (int row = 0; row < 4; ++row) {
       std::vector<Point4> points;
       for (int k = 0; k < knots.control_count(); ++k) points.push_back(row_point(surface, along, row, k));
       const BsplineCurve<Rational, 4> curve(knots, std::move(points));
-      if (!(derivative(curve, t, 1, Side::left) == derivative(curve, t, 1, Side::right))) return false;
+      position.push_back(evaluate(curve, t));
+      jump.push_back(derivative(curve, t, 1, Side::right) - derivative(curve, t, 1, Side::left));
     }
+    for (int k = 0; k < 3; ++k)
+      if (product(component(jump, k), component(position, 3)) != product(component(jump, 3), component(position, k)))
+        return false;
   }
   return true;
 }
@@ -156,6 +170,8 @@ GregoryProof prove_patch(const GregoryPatch<Rational>& patch, int max_boxes) {
 
 std::vector<GregoryProof> prove_patches(const std::vector<const GregoryPatch<Rational>*>& patches, int jobs) {
   std::vector<GregoryProof> out(patches.size());
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    jobs > 0 ? jobs : std::max(1, tbb::this_task_arena::max_concurrency()));
   tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, patches.size(), [&](std::size_t i) { out[i] = prove_patch(*patches[i]); });

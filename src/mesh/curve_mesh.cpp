@@ -17,6 +17,12 @@ using Point = Vec<Rational, 3>;
 
 std::string text(const Point& p) { return fmt::format("({}, {}, {})", to_text(p[0]), to_text(p[1]), to_text(p[2])); }
 
+std::string text(const std::vector<Rational>& numbers) {
+  std::string out;
+  for (const Rational& x : numbers) out += (out.empty() ? "" : " ") + to_text(x);
+  return out;
+}
+
 bool is_zero(const Point& p) { return p == Point{}; }
 
 class Analysis {
@@ -24,8 +30,9 @@ class Analysis {
   Analysis(const CurveMesh& mesh, FaceSides sides) : mesh_(mesh), sides_(sides) {}
 
   Result<MeshTopology> run() {
-    for (const auto step : {&Analysis::edges, &Analysis::control_vectors, &Analysis::t_nodes, &Analysis::edge_ends,
-                            &Analysis::faces, &Analysis::covers, &Analysis::corners, &Analysis::t_node_corners})
+    for (const auto step :
+         {&Analysis::edges, &Analysis::control_vectors, &Analysis::t_nodes, &Analysis::edge_ends, &Analysis::faces,
+          &Analysis::covers, &Analysis::corners, &Analysis::t_node_corners, &Analysis::vectors_of_sides})
       if (std::optional<Error> error = (this->*step)()) return std::move(*error);
     classify();
     return std::move(out_);
@@ -55,12 +62,16 @@ class Analysis {
     if (edge.knots.size() != n + 4 || (!edge.weights.empty() && edge.weights.size() != n))
       return error(ErrorCode::wrong_count, "", "the knots, points and weights do not fit",
                    fmt::format("{} knots, {} points, {} weights", edge.knots.size(), n, edge.weights.size()));
+    for (std::size_t i = 1; i < edge.knots.size(); ++i)
+      if (edge.knots[i] < edge.knots[i - 1])
+        return error(ErrorCode::decreasing_knots, "", fmt::format("knot {} is smaller than the one before it", i),
+                     fmt::format("{} after {}", to_text(edge.knots[i]), to_text(edge.knots[i - 1])));
     Result<KnotVector<Rational>> knots = KnotVector<Rational>::make(3, edge.knots);
     if (!knots) return knots.error();
     const bool clamped = knots->multiplicity(Rational(0)) == 4 && knots->multiplicity(Rational(1)) == 4;
     if (!clamped || knots->domain_begin() != 0 || knots->domain_end() != 1)
-      return error(ErrorCode::bad_multiplicity, "", "the knots should be clamped over [0, 1]",
-                   fmt::format("{} … {}", to_text(edge.knots.front()), to_text(edge.knots.back())));
+      return error(ErrorCode::bad_multiplicity, "", "the knots should begin with 0 and end with 1, four times each",
+                   text(edge.knots));
     for (const Rational& t : knots->breaks())
       if (t > 0 && t < 1 && knots->multiplicity(t) > 3)
         return error(ErrorCode::bad_multiplicity, "", "an inner knot should stand at most three times",
@@ -273,6 +284,29 @@ class Analysis {
       if (!met)
         return error(ErrorCode::bad_t_node, "T-node " + node.id, "no face has a corner there",
                      fmt::format("{} of edge {}", to_text(node.parameter), mesh_.edges[node.edge].id));
+    }
+    return std::nullopt;
+  }
+
+  // What edges that are not smooth ask of control vectors, too.
+  std::optional<Error> vectors_of_sides() {
+    for (const ControlVectors& c : mesh_.control_vectors) {
+      const auto wrong = [&](ErrorCode code, std::string message, std::string values = "") {
+        return error(code, fmt::format("{}, control vectors at {}", edge_name(c.edge), to_text(c.parameter)),
+                     std::move(message), std::move(values));
+      };
+      if (!c.left && !c.right)
+        return wrong(ErrorCode::control_vector_missing, "there is neither a left nor a right one");
+      for (const auto* vector : {&c.left, &c.right}) {
+        if (!*vector) continue;
+        const bool is_left = vector == &c.left;
+        if ((is_left ? out_.left : out_.right)[c.edge].empty())
+          return wrong(ErrorCode::bad_reference,
+                       fmt::format("there is no face to the {} of the edge", is_left ? "left" : "right"),
+                       text(**vector));
+        if (is_zero(**vector) || is_parallel(**vector, edge_tangent(out_.curves[c.edge], c.parameter)))
+          return wrong(ErrorCode::control_vector_along, "the vector is zero or runs along the edge", text(**vector));
+      }
     }
     return std::nullopt;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/patch/gregory_expand.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "patchproof/patch/denominator.h"
@@ -28,7 +30,7 @@ void expect_same_surface(const GregoryPatch<Rational>& patch, const BsplinePatch
     for (const Rational& v : {q(1, 9), q(1, 3), q(2, 5), q(1, 2), q(7, 8)}) {
       const SurfaceFrame<Rational> s = frame(patch, u, v);
       const PartialDerivatives<Rational, 3> e = rational_derivatives(expanded, u, v, 1, 1);
-      EXPECT_EQ(s.point, e.at(0, 0));
+      ASSERT_EQ(s.point, e.at(0, 0));
       EXPECT_EQ(s.du, e.at(1, 0));
       EXPECT_EQ(s.dv, e.at(0, 1));
       if (u > 0 && u < 1) {
@@ -59,6 +61,23 @@ TEST(GregoryExpand, IsTheSameSurfaceInTheStatedDegrees) {
                     expanded.surface.degree(d) - rows.degree());
         }
     }
+  }
+}
+
+// (1), (2): weights that are 1 in one span of the knots and not in the next.
+TEST(GregoryExpand, BoxesHaveOneDegreeAndOneScale) {
+  CurveMesh mesh = mesh_of(find_case("A").at("mesh"));
+  MeshEdge& edge = *std::find_if(mesh.edges.begin(), mesh.edges.end(), [](const MeshEdge& e) { return e.id == "E6"; });
+  edge.knots = {0, 0, 0, 0, q(1, 2), q(1, 2), 1, 1, 1, 1};
+  edge.points = {{{6, 0, 1}}, {{6, 1, q(4, 3)}}, {{q(31, 5), 3, q(8, 5)}}, {{q(33, 5), 5, q(4, 5)}},
+                 {{7, 7, 0}}, {{6, 9, -1}}};
+  for (const std::vector<Rational>& weights : {std::vector<Rational>{2, 1, 1, 1, 1, 1}, {1, 1, 1, 1, 1, 2}}) {
+    edge.weights = weights;
+    const MeshTopology topology = analyse(mesh).value();
+    for (const FillMethod method : {FillMethod::former, FillMethod::c1})
+      for (const GregoryPatch<Rational>& patch :
+           fill_faces<Rational>(mesh, topology, {NodeScale::none, method}).value().patches)
+        expect_same_surface(patch, expand(patch).surface);
   }
 }
 

@@ -5,7 +5,7 @@
 //                Q_0 = P_0,   3 (Q_1 − Q_0) − (k/x_1)(P_1 − P_0) = μ P_0   with one μ for the four,   and likewise at 1
 //              so that on its edges S is what the U or the V surface is there, with its derivatives
 //   corners    at each corner both surfaces have one point and the same first derivatives
-//   c1         the homogeneous rows are C¹ at every inner knot; with matched and corners S is C¹ on the closed square
+//   c1         the U and the V surface are C¹ across every inner knot line (their rows may jump by multiples of themselves); with matched and corners S is C¹ on the closed square
 //   positive   the 32 weights of the C surface and those of the rows are positive: no denominator vanishes
 //   regular    S_u × S_v vanishes nowhere on the closed square. Box by box a direction r with (S_u × S_v)·r > 0, by
 //                S = P + Σ g_pq d_pq,   P = S^u + S^v − (C surface of the Q⁰),   d = Q⁰ − Q¹ at the four inner places,

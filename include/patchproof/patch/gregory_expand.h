@@ -70,12 +70,12 @@ struct HomogeneousForms {
   bool constant = false;  // the denominator is the constant 1
 };
 
+// constant: whether all weights of the whole surface are 1, so that all boxes have forms of one degree and one scale.
 template <ExactField T>
-HomogeneousForms<T> forms_of(const BezierPatch<T, 4>& patch) {
+HomogeneousForms<T> forms_of(const BezierPatch<T, 4>& patch, bool constant) {
   HomogeneousForms<T> out;
   for (std::size_t c = 0; c < 3; ++c) out.numerator[c] = TensorForm<T>::from_bernstein(patch, c);
-  const std::vector<Vec<T, 4>>& net = patch.net();
-  out.constant = std::all_of(net.begin(), net.end(), [](const Vec<T, 4>& p) { return p[3] == T(1); });
+  out.constant = constant;
   out.denominator = out.constant ? TensorForm<T>::constant(T(1)) : TensorForm<T>::from_bernstein(patch, 3);
   return out;
 }
@@ -143,7 +143,9 @@ CSurfaceForms<T> c_surface_forms(const GregoryPatch<T>& patch, const ParameterBo
 template <ExactField T>
 BezierPatch<T, 4> expand_box(const GregoryPatch<T>& patch, const ParameterBox<T>& box) {
   const auto part = [&](const BsplinePatch<T, 4>& surface) {
-    return detail::forms_of(extract_bezier(restrict(surface, box)).front().bezier);
+    const bool constant =
+        std::all_of(surface.net().begin(), surface.net().end(), [](const Vec<T, 4>& p) { return p[3] == T(1); });
+    return detail::forms_of(extract_bezier(restrict(surface, box)).front().bezier, constant);
   };
   const detail::HomogeneousForms<T> u = part(patch.u_surface()), v = part(patch.v_surface());
   const detail::CSurfaceForms<T> c = detail::c_surface_forms(patch, box);

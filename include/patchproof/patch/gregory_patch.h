@@ -28,7 +28,8 @@
 //           (5) on an edge S and its first derivatives are those of the surface that carries the edge, whenever corners_agree;
 //           (6) corners_agree: at each corner U and V have one point and the same two first derivatives;
 //           (7) in double no parameter of the closed square gives a NaN: next to a corner (u, v) is moved along its ray to the
-//               distance 2^-256;
+//               distance 2^-256. Derivatives of rational patches lose digits there, as much as the unit roundoff over the
+//               distance from the corner: their Q⁰ and Q¹ differ in weight, and what cancels was rounded;
 //           (8) evaluate_in_spans: the same formulas at parameters of another ring, of the pieces named.
 // ERRORS    make: bad_degree (not 3 across), domains_differ (not [0, 1], or unclamped), bad_multiplicity (rows that may
 //           jump), bad_weight (a weight ≤ 0 at an end of a row).

@@ -168,7 +168,8 @@ class Reader {
         std::all_of(indices.begin(), indices.end(), [&](int index) { return bool(as_read_[index - 1]); });
     const Topology& topology = as_read && !indices.empty() ? before_ : after_;
     const TopoDS_Edge edge = topology.edge(i);
-    CadEdge out{label, CadEdgeKind::unusable, {}, BRep_Tool::Tolerance(edge), ""};
+    // The conversion raises the tolerance to what it finds, and may replace parameter curves: the file's own are asked.
+    CadEdge out{label, CadEdgeKind::unusable, {}, BRep_Tool::Tolerance(in_step_ ? before_.edge(i) : edge), ""};
     Sources sources;
     const auto finish = [&](CadEdgeKind kind, std::string note = "") {
       out.kind = kind;
@@ -188,7 +189,14 @@ class Reader {
         const TopoDS_Edge use = TopoDS::Edge(e.Current());
         Result<BsplineCurve<Rational, 3>> parameters = parameters_of(use, natural);
         if (!parameters) return finish(CadEdgeKind::unusable, parameters.error().message);
-        const double away = sampled_distance(use, natural);
+        const double now = sampled_distance(use, natural),
+                     away = std::max(now, in_step_ ? distance_in_file(i, index) : 0);
+        if (away > 10 * out.tolerance && away > kReplaced && now < away / 2)
+          return finish(
+              CadEdgeKind::unusable,
+              fmt::format("its parameter curve on face {} is {:.3g} away from its curve in space, tolerance {:.3g}, "
+                          "and the conversion to B-splines replaces it",
+                          model_.faces[place_[index - 1]].label, away, out.tolerance));
         if (away > out.tolerance)
           out.note +=
               fmt::format("{}its parameter curve on face {} is {:.3g} away from its curve in space, tolerance {:.3g}",
@@ -208,6 +216,18 @@ class Reader {
            : out.uses.size() > 2 ? CadEdgeKind::non_manifold
            : indices.size() == 1 ? CadEdgeKind::seam
                                  : CadEdgeKind::shared);
+  }
+
+  static constexpr double kReplaced = 1e-6;
+
+  // As the file has them: how far the parameter curves of an edge on a face are from its curve in space.
+  double distance_in_file(int edge, int face) const {
+    double largest = 0;
+    const TopoDS_Face natural = TopoDS::Face(before_.face(face).Oriented(TopAbs_FORWARD));
+    for (TopExp_Explorer e(natural, TopAbs_EDGE); e.More(); e.Next())
+      if (e.Current().IsSame(before_.edge(edge)))
+        largest = std::max(largest, sampled_distance(TopoDS::Edge(e.Current()), natural));
+    return largest;
   }
 
   // An edge of no face.
