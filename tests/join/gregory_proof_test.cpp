@@ -56,6 +56,27 @@ TEST(GregoryProof, Law1_PatchesOfAFillAreC1) {
     }
 }
 
+// Rows times one positive function that is only continuous: the same affine surface, with homogeneous rows that jump.
+TEST(GregoryProof, Law1_RowsMayJumpByMultiplesOfThemselves) {
+  const Patch patch = filled(two_columns({.inner = {"1/2"_q}}))[0];
+  const Surface& u = patch.u_surface();
+  const Piecewise<Rational, 1> factor{{Rational(0), "1/2"_q, {{{1}}, {{2}}}}, {"1/2"_q, Rational(1), {{{2}}, {{1}}}}};
+  std::vector<BsplineCurve<Rational, 4>> rows;
+  for (int i = 0; i < 4; ++i) {
+    std::vector<Point4> points;
+    for (int k = 0; k < u.count(Direction::v); ++k) points.push_back(u.point(i, k));
+    const auto pieces = product(factor, extract_bezier(BsplineCurve<Rational, 4>(u.knots(Direction::v), points)));
+    rows.push_back(joined(pieces, pieces.front().degree()));
+  }
+  std::vector<Point4> net;
+  for (const auto& row : rows) net.insert(net.end(), row.points().begin(), row.points().end());
+  const Surface other(u.knots(Direction::u), rows[0].knots(), std::move(net));
+  const Patch scaled = Patch::make(other, patch.v_surface()).value();
+  EXPECT_EQ(evaluate_rational(other, "1/3"_q, "1/5"_q), evaluate_rational(u, "1/3"_q, "1/5"_q));
+  EXPECT_FALSE(rows_are_c1(other, Direction::v));
+  EXPECT_TRUE(prove_patch(scaled).is_c1());
+}
+
 TEST(GregoryProof, Law1_TheFormerMethodIsNot) {
   GraphMesh g = two_columns({.inner = {"1/2"_q}, .to_left = {"1/3"_q}});
   const Point3 d = g.lifted(g.at(0, "2/3"_q), {-1, 0});
