@@ -49,16 +49,9 @@ struct Tally {
   }
 };
 
-// "edge E0 on [0, 2/5]" of a join.
-std::string range_of(const CurveMesh& mesh, const MeshTopology& topology, const MeshJoin& join) {
-  for (const std::vector<int>* side : {&topology.left[join.edge], &topology.right[join.edge]})
-    for (const int index : *side) {
-      const EdgeUse& use = topology.uses[index];
-      if (use.face != join.join.patch_a || edge_of_side(use.side) != join.edge_a) continue;
-      return fmt::format("edge {}, faces {} and {}", mesh.edges[join.edge].id, mesh.faces[join.join.patch_a].id,
-                         mesh.faces[join.join.patch_b].id);
-    }
-  return mesh.edges[join.edge].id;
+std::string place_of(const CurveMesh& mesh, const MeshJoin& join) {
+  return fmt::format("edge {}, faces {} and {}", mesh.edges[join.edge].id, mesh.faces[join.join.patch_a].id,
+                     mesh.faces[join.join.patch_b].id);
 }
 
 // The largest angle between the tangent planes of faces at one node of an edge, about, in degrees.
@@ -94,7 +87,7 @@ Findings judge(const CurveMesh& mesh, const MeshTopology& topology, const FillPr
   for (std::size_t i = 0; i < proof.joins.size(); ++i) {
     const MeshJoin& join = proof.joins[i];
     const Certificate& c = proof.certificates[i];
-    const std::string place = range_of(mesh, topology, join);
+    const std::string place = place_of(mesh, join);
     if (topology.kinds[join.edge] == EdgeKind::sharp) {
       constexpr double kNearlySmooth = 1;  // degrees
       const double at_nodes = angle_at_nodes(topology, join.edge);
