@@ -36,25 +36,25 @@ enum class ErrorCode {
   twists_differ,     // cross-boundary derivatives whose mixed derivatives disagree in a corner
   usage,             // a request that makes no sense
   // Curve meshes (mesh/curve_mesh.h):
-  bad_weight,             // an edge with a weight of 0
-  not_c1,                 // an edge whose homogeneous derivatives differ at a knot
-  vanishing_tangent,      // an edge whose derivative is zero at a knot or an end
-  ends_apart,             // an edge that ends beside its vertex
-  bad_t_node,             // a T-node at the end of its edge, or at which no face has a corner
-  wrong_side_count,       // a face with three sides
-  bad_side,               // a side of a face from 0 to 0
-  side_ends_nowhere,      // a side of a face that ends where there is no vertex and no T-node
-  open_loop,              // a side of a face that does not begin where the one before ends
-  uneven_cover,           // faces on one side of an edge that overlap or leave a part of it free
-  unused_edge,            // an edge at which there is no face
-  parallel_tangents,      // a face corner of 0 or 180 degrees
-  control_vector_outside, // a control vector at the end of its edge
-  control_vector_twice,   // two control vectors at one place
-  control_vector_missing, // a control vector for one side only, on a smooth edge
-  control_vectors_bent,   // control vectors of one place that are not opposite
-  control_vector_along,   // a control vector along its edge
-  control_vector_differs, // a control vector at a T-node, with another direction than the edge there
-  basis_along_edge,       // a basis patch that vanishes or runs along the edge
+  bad_weight,              // an edge with a weight of 0
+  not_c1,                  // an edge whose homogeneous derivatives differ at a knot
+  vanishing_tangent,       // an edge whose derivative is zero at a knot or an end
+  ends_apart,              // an edge that ends beside its vertex
+  bad_t_node,              // a T-node at the end of its edge, or at which no face has a corner
+  wrong_side_count,        // a face with three sides
+  bad_side,                // a side of a face from 0 to 0
+  side_ends_nowhere,       // a side of a face that ends where there is no vertex and no T-node
+  open_loop,               // a side of a face that does not begin where the one before ends
+  uneven_cover,            // faces on one side of an edge that overlap or leave a part of it free
+  unused_edge,             // an edge at which there is no face
+  parallel_tangents,       // a face corner of 0 or 180 degrees
+  control_vector_outside,  // a control vector at the end of its edge
+  control_vector_twice,    // two control vectors at one place
+  control_vector_missing,  // a control vector for one side only, on a smooth edge
+  control_vectors_bent,    // control vectors of one place that are not opposite
+  control_vector_along,    // a control vector along its edge
+  control_vector_differs,  // a control vector at a T-node, with another direction than the edge there
+  basis_along_edge,        // a basis patch that vanishes or runs along the edge
 };
 
 // The name of a code as printed in messages: "wrong_count".

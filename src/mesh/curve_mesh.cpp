@@ -30,11 +30,11 @@ class Analysis {
   Analysis(const CurveMesh& mesh, FaceSides sides) : mesh_(mesh), sides_(sides) {}
 
   Result<MeshTopology> run() {
-    for (const auto step :
-         {&Analysis::edges, &Analysis::control_vectors, &Analysis::t_nodes, &Analysis::edge_ends, &Analysis::faces,
-          &Analysis::covers, &Analysis::corners, &Analysis::t_node_corners, &Analysis::vectors_of_sides})
+    for (const auto step : {&Analysis::edges, &Analysis::control_vectors, &Analysis::t_nodes, &Analysis::edge_ends,
+                            &Analysis::faces, &Analysis::covers, &Analysis::corners, &Analysis::t_node_corners})
       if (std::optional<Error> error = (this->*step)()) return std::move(*error);
     classify();
+    if (std::optional<Error> error = vectors_of_other_edges()) return std::move(*error);
     return std::move(out_);
   }
 
@@ -288,29 +288,6 @@ class Analysis {
     return std::nullopt;
   }
 
-  // What edges that are not smooth ask of control vectors, too.
-  std::optional<Error> vectors_of_sides() {
-    for (const ControlVectors& c : mesh_.control_vectors) {
-      const auto wrong = [&](ErrorCode code, std::string message, std::string values = "") {
-        return error(code, fmt::format("{}, control vectors at {}", edge_name(c.edge), to_text(c.parameter)),
-                     std::move(message), std::move(values));
-      };
-      if (!c.left && !c.right)
-        return wrong(ErrorCode::control_vector_missing, "there is neither a left nor a right one");
-      for (const auto* vector : {&c.left, &c.right}) {
-        if (!*vector) continue;
-        const bool is_left = vector == &c.left;
-        if ((is_left ? out_.left : out_.right)[c.edge].empty())
-          return wrong(ErrorCode::bad_reference,
-                       fmt::format("there is no face to the {} of the edge", is_left ? "left" : "right"),
-                       text(**vector));
-        if (is_zero(**vector) || is_parallel(**vector, edge_tangent(out_.curves[c.edge], c.parameter)))
-          return wrong(ErrorCode::control_vector_along, "the vector is zero or runs along the edge", text(**vector));
-      }
-    }
-    return std::nullopt;
-  }
-
   void classify() {
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
       if (out_.left[e].empty() || out_.right[e].empty()) {
@@ -331,6 +308,21 @@ class Analysis {
         }
       out_.kinds.push_back(smooth ? EdgeKind::smooth : EdgeKind::sharp);
     }
+  }
+
+  // On smooth edges connect_edge asks for more.
+  std::optional<Error> vectors_of_other_edges() {
+    for (const ControlVectors& c : mesh_.control_vectors) {
+      if (out_.kinds[c.edge] == EdgeKind::smooth) continue;
+      const std::string where = fmt::format("{}, control vectors at {}", edge_name(c.edge), to_text(c.parameter));
+      if (!c.left && !c.right)
+        return error(ErrorCode::control_vector_missing, where, "there is neither a left nor a right one");
+      for (const std::optional<Point>& vector : {c.left, c.right})
+        if (vector && is_parallel(*vector, edge_tangent(out_.curves[c.edge], c.parameter)))
+          return error(ErrorCode::control_vector_along, where, "the vector is zero or runs along the edge",
+                       text(*vector));
+    }
+    return std::nullopt;
   }
 
   const CurveMesh& mesh_;

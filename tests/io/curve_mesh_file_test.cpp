@@ -63,20 +63,18 @@ TEST(CurveMeshFile, BadFilesAreRefusedWithTheirPlace) {
     ErrorCode code;
     std::string where;
   };
-  for (const Case& c : {Case{"\"patchproof-curve-mesh\"", "\"mesh\"", ErrorCode::unknown_format, "/format"},
-                        Case{"\"version\": 1", "\"version\": 2", ErrorCode::unsupported, "/version"},
-                        Case{"\"id\": \"V1\"", "\"id\": \"V0\"", ErrorCode::bad_reference, "/vertices/1/id"},
-                        Case{"\"begin\": \"V0\"", "\"begin\": \"V99\"", ErrorCode::bad_reference, "/edges/"},
-                        Case{"\"edge\": \"E0\", \"parameter\"", "\"edge\": \"E99\", \"parameter\"",
-                             ErrorCode::bad_reference, "/t_nodes/0/edge"},
-                        Case{"\"point\": [0, 0, 0]", "\"point\": [0, 0]", ErrorCode::wrong_count, "/vertices/0/point"},
-                        Case{"\"point\": [0, 0, 0]", "\"point\": [0, 0, 0, 0]", ErrorCode::wrong_count,
-                             "/vertices/0/point"},
-                        Case{"\"point\": [0, 0, 0]", "\"point\": [0, 0, \"nan\"]", ErrorCode::bad_number,
-                             "/vertices/0/point/2"},
-                        Case{"\"point\": [0, 0, 0]", "\"point\": [0, 0, \"sqrt(2)\"]", ErrorCode::bad_number,
-                             "/vertices/0/point/2"},
-                        Case{"\"point\": [0, 0, 0]", "\"point\": 0", ErrorCode::syntax, "/vertices/0"}}) {
+  for (const Case& c :
+       {Case{"\"patchproof-curve-mesh\"", "\"mesh\"", ErrorCode::unknown_format, "/format"},
+        Case{"\"version\": 1", "\"version\": 2", ErrorCode::unsupported, "/version"},
+        Case{"\"id\": \"V1\"", "\"id\": \"V0\"", ErrorCode::bad_reference, "/vertices/1/id"},
+        Case{"\"begin\": \"V0\"", "\"begin\": \"V99\"", ErrorCode::bad_reference, "/edges/"},
+        Case{"\"edge\": \"E0\", \"parameter\"", "\"edge\": \"E99\", \"parameter\"", ErrorCode::bad_reference,
+             "/t_nodes/0/edge"},
+        Case{"\"point\": [0, 0, 0]", "\"point\": [0, 0]", ErrorCode::wrong_count, "/vertices/0/point"},
+        Case{"\"point\": [0, 0, 0]", "\"point\": [0, 0, 0, 0]", ErrorCode::wrong_count, "/vertices/0/point"},
+        Case{"\"point\": [0, 0, 0]", "\"point\": [0, 0, \"nan\"]", ErrorCode::bad_number, "/vertices/0/point/2"},
+        Case{"\"point\": [0, 0, 0]", "\"point\": [0, 0, \"sqrt(2)\"]", ErrorCode::bad_number, "/vertices/0/point/2"},
+        Case{"\"point\": [0, 0, 0]", "\"point\": 0", ErrorCode::syntax, "/vertices/0"}}) {
     const Result<CurveMeshFile> read = read_curve_mesh_text(with(c.what, c.by), "mesh.json");
     ASSERT_FALSE(read) << c.by;
     EXPECT_EQ(read.error().code, c.code) << read.error().text();

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "io/io_support.h"
+#include "patchproof/io/curve_mesh_file.h"
 
 namespace patchproof {
 namespace {
@@ -154,12 +155,20 @@ TEST(Read, TheExamplesOfTheDocumentation) {
   for (std::size_t begin = text.find("```"); begin != std::string::npos; begin = text.find("```", begin + 3)) {
     const std::size_t first = text.find('\n', begin) + 1, last = text.find("```", first);
     ASSERT_NE(last, std::string::npos);
-    formats.push_back(read_good(text.substr(first, last - first), "formats.md").format);
+    const std::string example = text.substr(first, last - first);
+    if (looks_like_curve_mesh(example)) {
+      const Result<CurveMeshFile> mesh = read_curve_mesh_text(example, "formats.md");
+      ASSERT_TRUE(mesh) << mesh.error().text();
+      EXPECT_TRUE(analyse(mesh->mesh)) << analyse(mesh->mesh).error().text();
+      formats.push_back("patchproof-curve-mesh");
+    } else {
+      formats.push_back(read_good(example, "formats.md").format);
+    }
     begin = last;
   }
-  EXPECT_EQ(formats,
-            (std::vector<std::string>{"patchproof-model", "patchproof-model", "patchproof-model", "patchproof-model",
-                                      "newell", "bpt", "bez", "g2", "gismo", "geomdl", "tinyspline", "obj"}));
+  EXPECT_EQ(formats, (std::vector<std::string>{"patchproof-model", "patchproof-model", "patchproof-model",
+                                               "patchproof-model", "patchproof-model", "patchproof-curve-mesh",
+                                               "newell", "bpt", "bez", "g2", "gismo", "geomdl", "tinyspline", "obj"}));
 }
 
 struct Expected {

@@ -97,10 +97,10 @@ TEST(GregoryErrata, Erratum_E_GRE_06_CornersNeedDerivatives) {
   EXPECT_EQ(z_slope(q(1, 3), 3, 1), 1);
   EXPECT_NE(z_slope(0, 1, 1), z_slope(0, 3, 1));
   // corners_agree refuses such a patch.
-  const GregoryPatch<Rational> good = fill_faces<Rational>(mesh_of(find_case("A").at("mesh")),
-                                                           analyse(mesh_of(find_case("A").at("mesh"))).value())
-                                          .value()
-                                          .patches[0];
+  const GregoryPatch<Rational> good =
+      fill_faces<Rational>(mesh_of(find_case("A").at("mesh")), analyse(mesh_of(find_case("A").at("mesh"))).value())
+          .value()
+          .patches[0];
   EXPECT_TRUE(corners_agree(good));
   std::vector<Vec<Rational, 4>> net = good.v_surface().net();
   net[1][2] += 1;  // S^v_v in the corner (0, 0)
