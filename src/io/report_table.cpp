@@ -195,7 +195,9 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     }
     out << fmt::format("verdict  {}: {} pass, {} fail, {} undecided", to_string(r.outcome()), pass, fail, undecided);
     if (r.joins.empty())
-      out << "; no edges meet within " << fmt::format("{:.3g}", r.match_length) << ", nothing was judged";
+      out << (r.cad ? std::string("; no edge is shared by faces")
+                    : fmt::format("; no edges meet within {:.3g}", r.match_length))
+          << ", nothing was judged";
     if (!r.joins.empty() && !r.unmatched.empty()) out << "; free edges are not judged";
     const auto sharp = std::count_if(r.joins.begin(), r.joins.end(),
                                      [](const ReportedJoin& j) { return j.edge_class == EdgeClass::sharp; });
