@@ -8,7 +8,7 @@ import unittest
 sys.dont_write_bytecode = True  # the sources may be read-only
 if len(sys.argv) < 3:
     sys.exit(__doc__)
-from command import CUP, EXAMPLES, Command
+from command import DATA, CUP, EXAMPLES, Command
 
 BLOCK = EXAMPLES / "cad/block.step"
 
@@ -77,6 +77,15 @@ class Cad(Command):
         self.assertIn("left out: face " + label, self.expect(0, "certify", bad, "--keep-going", "--quiet").stdout.decode())
         # What was not looked at is no pass.
         self.expect(3, "certify", bad, "--keep-going", "--gap", "1")
+
+    def test_a_parameter_curve_that_the_conversion_would_mend(self):
+        # Two planes; on one of them the file's parameter curve lies 0.3 beside the edge.
+        path = DATA / "cad/shifted_parameter_curve.brep"
+        report = json.loads(self.expect(3, "certify", path, "--gap", "0.01", "--json", "-").stdout)
+        self.assertEqual(report["joins"], [])
+        notes = [edge["note"] for edge in report["other_edges"] if edge["kind"] == "unusable"]
+        self.assertEqual(len(notes), 1)
+        self.assertIn("0.3 away from its curve in space", notes[0])
 
     def test_damaged_files(self):
         data = BLOCK.read_bytes()

@@ -189,9 +189,11 @@ class Reader {
         const TopoDS_Edge use = TopoDS::Edge(e.Current());
         Result<BsplineCurve<Rational, 3>> parameters = parameters_of(use, natural);
         if (!parameters) return finish(CadEdgeKind::unusable, parameters.error().message);
+        // Those of STEP and IGES files are Open CASCADE's own, before the conversion and after it.
+        const bool in_file = in_step_ && model_.format == "brep";
         const double now = sampled_distance(use, natural),
-                     away = std::max(now, in_step_ ? distance_in_file(i, index) : 0);
-        if (away > 10 * out.tolerance && away > kReplaced && now < away / 2)
+                     away = std::max(now, in_file ? distance_in_file(i, index) : 0);
+        if (away > out.tolerance && now < away / 2)
           return finish(
               CadEdgeKind::unusable,
               fmt::format("its parameter curve on face {} is {:.3g} away from its curve in space, tolerance {:.3g}, "
@@ -217,8 +219,6 @@ class Reader {
            : indices.size() == 1 ? CadEdgeKind::seam
                                  : CadEdgeKind::shared);
   }
-
-  static constexpr double kReplaced = 1e-6;
 
   // As the file has them: how far the parameter curves of an edge on a face are from its curve in space.
   double distance_in_file(int edge, int face) const {
