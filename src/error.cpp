@@ -43,6 +43,10 @@ const char* to_string(ErrorCode code) {
     case ErrorCode::control_vector_along: return "control_vector_along";
     case ErrorCode::control_vector_differs: return "control_vector_differs";
     case ErrorCode::basis_along_edge: return "basis_along_edge";
+    case ErrorCode::bad_window: return "bad_window";
+    case ErrorCode::not_monotone: return "not_monotone";
+    case ErrorCode::not_closed: return "not_closed";
+    case ErrorCode::singular_fit: return "singular_fit";
   }
   return "unknown";
 }

@@ -55,6 +55,11 @@ enum class ErrorCode {
   control_vector_along,    // a control vector along its edge
   control_vector_differs,  // a control vector at a T-node, with another direction than the edge there
   basis_along_edge,        // a basis patch that vanishes or runs along the edge
+  // Curves and surfaces that are blended or fitted (spline/gerbs_curve.h, spline/least_squares.h):
+  bad_window,    // curves blended over an overlap of 0, or of more than a curve
+  not_monotone,  // the B-function t - 2 t^2 (1 - t)
+  not_closed,    // a closed surface whose first and last rows differ
+  singular_fit,  // eleven samples, all in one span of a spline with eight control points
 };
 
 // The name of a code as printed in messages: "wrong_count".

@@ -36,19 +36,30 @@ def children(process):
     return pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
 
 
-def is_gone(pid):
+def state(pid):
+    """As ps prints it: R, S, T (stopped), Z (ended, not yet waited for), X; the last as well where there is none."""
     try:
-        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] in "ZX"
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
     except (FileNotFoundError, ProcessLookupError):
-        return True
+        return "X"
+
+
+def is_gone(pid):
+    return state(pid) in "ZX"
 
 
 class Interrupts(Command):
     def start(self, *words):
         process = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=with_default_signals)
-        self.addCleanup(process.communicate)
+        self.addCleanup(self.close, process)
         self.addCleanup(process.kill)
         return process
+
+    def close(self, process):
+        """Without waiting for the pipes' other ends: a stopped child would hold them for ever."""
+        process.wait(timeout=PATIENCE)
+        process.stdout.close()
+        process.stderr.close()
 
     def writer(self, pipe, process):
         """The writing end of the pipe, once the program reads from it."""
@@ -134,16 +145,34 @@ class Interrupts(Command):
             self.skipTest("STEP files are not read by this build")
         for _ in range(100):
             process = self.start("certify", BLOCK, "--json", self.dir / "report.json")
-            wait_until(lambda: children(process) or process.poll() is not None)
-            try:
-                child = int(children(process)[0])
-                os.kill(child, signal.SIGSTOP)  # now the program waits for it
+            child = self.stop_the_reading_child(process)
+            if child:
                 break
-            except (IndexError, FileNotFoundError, ProcessLookupError):  # the child was faster
-                process.communicate(timeout=PATIENCE)
-        self.expect_interrupted(process, signal.SIGINT)
+            process.communicate(timeout=PATIENCE)  # the child was faster
+        else:
+            self.fail("the child ended a hundred times before it could be stopped")
+        self.addCleanup(self.end, child)
+        self.expect_interrupted(process, signal.SIGINT)  # the program waits for the child
         wait_until(lambda: is_gone(child))
         self.expect_files()
+
+    def stop_the_reading_child(self, process):
+        """Its number; None if it was over. Once it reads it has let go of our pipes, and ends with its parent; not before."""
+        while process.poll() is None:
+            try:
+                child = int(children(process)[0])
+                if os.readlink(f"/proc/{child}/fd/2") == os.devnull:
+                    os.kill(child, signal.SIGSTOP)
+                    wait_until(lambda: state(child) in "TZX")
+                    return child if state(child) == "T" else None
+            except (IndexError, OSError):
+                pass
+            time.sleep(0.001)
+        return None
+
+    def end(self, child):
+        if not is_gone(child):
+            os.kill(child, signal.SIGKILL)
 
     def reads_step(self):
         return subprocess.run([PROGRAM, "certify", str(BLOCK), "--quiet"], capture_output=True, timeout=PATIENCE).returncode == 0

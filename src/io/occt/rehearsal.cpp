@@ -30,10 +30,11 @@ void end_with_parent([[maybe_unused]] pid_t parent) {
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGALRM}) std::signal(signal, SIG_DFL);
   const rlimit no_core{0, 0}, time{seconds, seconds + 1};
   setrlimit(RLIMIT_CORE, &no_core);
   setrlimit(RLIMIT_CPU, &time);
+  alarm(10 * seconds);  // a child that waits uses no processor
   try {
     work();
   } catch (...) {  // the second reading will meet it as well, and name it
@@ -50,8 +51,12 @@ Rehearsal rehearse(const std::function<void()>& work, unsigned seconds) {
   int status = 0;
   while (waitpid(id, &status, 0) < 0)
     if (errno != EINTR) return Rehearsal::fine;
-  if (WIFSIGNALED(status))
-    return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? Rehearsal::too_long : Rehearsal::crashed;
+  if (WIFSIGNALED(status)) switch (WTERMSIG(status)) {
+      case SIGXCPU:
+      case SIGALRM:
+      case SIGKILL: return Rehearsal::too_long;
+      default: return Rehearsal::crashed;
+    }
   return WEXITSTATUS(status) == 0 ? Rehearsal::fine : Rehearsal::crashed;
 }
 
