@@ -11,12 +11,13 @@
 // ENSURES  (1) every operation's result contains the exact function for all functions in its operands: + − × ÷, sqrt, exp,
 //          sin, cos;  (2) value(s), range() and bernstein_range() contain f(s);  (3) where the operands are smooth the remainder of a composition over an interval of half-width
 //          r is O(r^(N+1));  (4) a quotient by a model whose range contains 0 is "anything", never NaN;
-//          (5) sign() answers only when the whole range has one sign, or f is exactly 0.
+//          (5) sign() answers only when the whole range has one sign, or f is exactly 0;
+//          (6) composed(…) contains F(f(s)) for every F with those Taylor coefficients.
 // COST     + − : N intervals; × : N²; ÷, sqrt, exp, sin, cos: N products.
 // SOURCE   K. Makino, M. Berz, Taylor models and other validated functional inclusion methods, Int. J. Pure Appl. Math. 4
 //          (2003) 379–456; remainders by Lagrange's form.
 // NEIGHBOURS power_series.h (exact polynomials, no remainder), ball.h.
-// TEST     tests/scalar/taylor_model_test.cpp checks (1)–(5).
+// TEST     tests/scalar/taylor_model_test.cpp checks (1)–(5), tests/scalar/transcendental_test.cpp (6).
 #pragma once
 
 #include <algorithm>
@@ -144,12 +145,26 @@ requires(N >= 1 && N <= 30) class TaylorModel {
   friend TaylorModel sin(const TaylorModel& a) { return a.circular(0); }
   friend TaylorModel cos(const TaylorModel& a) { return a.circular(1); }
 
+  // F(f(s)) for a function F that is given by its Taylor coefficients: at_centre[k] encloses F^(k)/k! on coefficient(0),
+  // beyond encloses F^(N+1)/(N+1)! on argument_range().
+  TaylorModel composed(const std::array<Interval, N + 1>& at_centre, const Interval& beyond) const {
+    std::array<Interval, N + 2> f;
+    std::copy(at_centre.begin(), at_centre.end(), f.begin());
+    return is_unbounded() ? anything() : compose(f, beyond);
+  }
+  // What Taylor's formula about coefficient(0) needs to know F on: coefficient(0) and range(), and all between them.
+  Interval argument_range() const { return hull(c_[0], range()); }
+
+  // A function of which only its values are known.
+  static TaylorModel unknown(const Interval& values) {
+    TaylorModel out;
+    out.remainder_ = values;
+    return out;
+  }
   // Nothing is known.
   static TaylorModel anything() {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    TaylorModel out;
-    out.remainder_ = Interval(-kInfinity, kInfinity);
-    return out;
+    return unknown(Interval(-kInfinity, kInfinity));
   }
 
  private:
