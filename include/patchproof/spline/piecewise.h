@@ -11,12 +11,13 @@
 //           values;  (3) derivative: that of the values on each piece;  (4) part(f, a, b)(t) = f(a + (b − a) t) on [0, 1],
 //           also for b < a, where it runs backwards;  (5) value: the polynomial of the piece to the given side of t;
 //           (6) is_c1: exactly when values and first derivatives agree at every inner break;
-//           (7) joined: the B-spline with these pieces, if they are C^(p−m) at the inner breaks (m = multiplicity).
+//           (7) joined: the B-spline with these pieces, if they are C^(p−m) at the inner breaks (m = multiplicity);
+//           (8) joined_smoothly: the B-spline with these pieces, each inner break as often as they need, 0 to p + 1 times.
 // SCALARS   T: Field, K: OrderedField; is_c1: T ExactRing. Exact in exact scalars.
 // COST      of refine: O(p³) combinations of points for each new break; window, part and value: O(log s) and the pieces they
 //           need; the others one pass.
 // NEIGHBOURS bezier_extraction.h (from a B-spline and back), product.h (of two B-splines, with their knots).
-// TEST      tests/spline/piecewise_test.cpp checks (1)–(7).
+// TEST      tests/spline/piecewise_test.cpp checks (1)–(8).
 #pragma once
 
 #include <algorithm>
@@ -78,6 +79,18 @@ bool is_c1(const Piecewise<T, N, K>& f);
 // As a B-spline whose inner breaks have this multiplicity. REQUIRES 1 ≤ multiplicity ≤ degree + 1.
 template <Field T, std::size_t N, OrderedField K>
 BsplineCurve<T, N, K> joined(const Piecewise<T, N, K>& f, int multiplicity);
+
+template <ExactField T, std::size_t N, OrderedField K>
+BsplineCurve<T, N, K> joined_smoothly(const Piecewise<T, N, K>& f);
+
+// The knots of (8) for several functions at once: each inner break as often as one of them needs. REQUIRES at least one; equal
+// breaks and degrees.
+template <ExactField T, std::size_t N, OrderedField K>
+KnotVector<K> smoothest_knots(const std::vector<Piecewise<T, N, K>>& functions);
+
+// How many derivatives agree at the end of piece i: −1 where the values differ, the degree where both are one polynomial.
+template <ExactField T, std::size_t N, OrderedField K>
+int agreement(const Piecewise<T, N, K>& f, std::size_t i);
 
 // ---------------------------------------------------------------------------------------------------------------------
 
@@ -252,6 +265,34 @@ BsplineCurve<T, N, K> joined(const Piecewise<T, N, K>& f, int multiplicity) {
     return BsplineCurve<T, N, K>(KnotVector<K>::make_unchecked(p, std::move(knots)), std::move(points));
   }
   return join_pieces(f, KnotVector<K>::make_unchecked(p, std::move(knots)));
+}
+
+template <ExactField T, std::size_t N, OrderedField K>
+int agreement(const Piecewise<T, N, K>& f, std::size_t i) {
+  const K& t = f[i].end;
+  int order = 0;
+  while (order <= f[i].degree() && value(f, t, order, Side::left) == value(f, t, order, Side::right)) ++order;
+  return order - 1;
+}
+
+template <ExactField T, std::size_t N, OrderedField K>
+KnotVector<K> smoothest_knots(const std::vector<Piecewise<T, N, K>>& functions) {
+  const Piecewise<T, N, K>& one = functions.front();
+  const int p = one.front().degree();
+  std::vector<K> knots(p + 1, one.front().begin);
+  for (std::size_t i = 0; i + 1 < one.size(); ++i) {
+    int order = p;
+    for (const Piecewise<T, N, K>& f : functions)
+      if (order >= 0) order = std::min(order, agreement(f, i));
+    knots.insert(knots.end(), p - order, one[i].end);
+  }
+  knots.insert(knots.end(), p + 1, one.back().end);
+  return KnotVector<K>::make_unchecked(p, std::move(knots));
+}
+
+template <ExactField T, std::size_t N, OrderedField K>
+BsplineCurve<T, N, K> joined_smoothly(const Piecewise<T, N, K>& f) {
+  return join_pieces(f, smoothest_knots(std::vector<Piecewise<T, N, K>>{f}));
 }
 
 }  // namespace patchproof
