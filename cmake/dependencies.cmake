@@ -7,7 +7,8 @@ find_package(fmt REQUIRED)
 if(PROJECT_NAME STREQUAL "patchproof")
   find_package(CLI11 REQUIRED)  # the program only
   find_path(PATCHPROOF_HWY_INCLUDE_DIR hwy/highway.h REQUIRED)  # SIMD; headers only, used by the kernels' own files
-  mark_as_advanced(PATCHPROOF_HWY_INCLUDE_DIR)
+  find_path(PATCHPROOF_EIGEN_SOLVER_INCLUDE_DIR Eigen/SparseCholesky PATH_SUFFIXES eigen3 REQUIRED)  # fits in doubles
+  mark_as_advanced(PATCHPROOF_HWY_INCLUDE_DIR PATCHPROOF_EIGEN_SOLVER_INCLUDE_DIR)
 endif()
 
 find_library(PATCHPROOF_MPFI_LIBRARY mpfi REQUIRED)
