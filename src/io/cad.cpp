@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <fstream>
 
 #include "edge_class.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "report_curves.h"
 #include "report_profile.h"
+#include "report_text.h"
 #include "source_file.h"
 
 namespace patchproof {
@@ -64,6 +66,8 @@ const char* to_string(CadEdgeKind kind) {
 }
 
 bool looks_like_cad(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe would be waited for
   std::ifstream in(path, std::ios::binary);
   std::string head(4096, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
@@ -85,7 +89,7 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
   for (const LeftOutFace& face : model.left_out) report.cad->left_out.push_back({face.label, face.reason});
   for (const CadEdge& edge : model.edges) {
     if (!is_join(edge.kind)) report.cad->no_joins.push_back({edge.label, to_string(edge.kind), edge.note});
-    if (!edge.note.empty()) report.notes.push_back("edge " + edge.label + ": " + edge.note);
+    if (!edge.note.empty()) report.notes.push_back(named("edge", edge.label) + ": " + edge.note);
   }
   const std::vector<Pair> pairs = pairs_of(model);
   report.joins.resize(pairs.size());

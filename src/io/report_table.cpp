@@ -118,7 +118,7 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
   for (const std::string& note : r.notes) out << "note: " << escaped(note) << '\n';
   if (r.cad)
     for (const ReportedFace& face : r.cad->left_out)
-      out << "left out: face " << escaped(face.label) << ": " << escaped(face.reason) << '\n';
+      out << "left out: " << escaped(named("face", face.label)) << ": " << escaped(face.reason) << '\n';
   if (!style.quiet && !r.joins.empty()) {
     out << '\n';
     write_rows(out, r, style);

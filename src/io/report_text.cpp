@@ -20,6 +20,10 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+std::string named(const std::string& what, const std::string& label) {
+  return label.rfind(what + " ", 0) == 0 ? label : what + " " + label;
+}
+
 std::string bound_text(double lower, double upper) {
   if (lower == upper) return fmt::format("{}", lower);
   const auto outward = [](double x, bool up) {

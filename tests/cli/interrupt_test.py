@@ -49,8 +49,8 @@ def is_gone(pid):
 
 
 class Interrupts(Command):
-    def start(self, *words):
-        process = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=with_default_signals)
+    def start(self, *words, preexec_fn=with_default_signals):
+        process = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=preexec_fn)
         self.addCleanup(self.close, process)
         self.addCleanup(process.kill)
         return process
@@ -61,29 +61,41 @@ class Interrupts(Command):
         process.stdout.close()
         process.stderr.close()
 
-    def writer(self, pipe, process):
-        """The writing end of the pipe, once the program reads from it."""
-        held = []
-
-        def opened():
-            self.assertIsNone(process.poll())
-            try:
-                held.append(os.open(pipe, os.O_WRONLY | os.O_NONBLOCK))
-            except OSError:  # nobody reads
-                return False
-            return True
-
-        wait_until(opened)
-        os.set_blocking(held[0], True)
-        return os.fdopen(held[0], "wb")
-
-    def pipe(self):
+    def long_file(self):
+        """Zeros that take no room on the disk and a while to read; no model."""
         path = self.dir / "model.json"
-        os.mkfifo(path)
+        with path.open("wb") as file:
+            file.truncate(200 << 20)
         return path
+
+    def stopped(self, is_there, *words, **more):
+        """The program, stopped where `is_there` holds. What passes by too quickly is tried again."""
+        for _ in range(100):
+            process = self.start(*words, **more)
+            while process.poll() is None and not is_there(process):
+                time.sleep(0.0005)
+            process.send_signal(signal.SIGSTOP)  # is nothing to a process that has ended
+            wait_until(lambda: process.poll() is not None or state(process.pid) == "T")
+            if process.poll() is None and is_there(process):
+                return process
+            process.send_signal(signal.SIGCONT)
+            process.communicate(timeout=PATIENCE)
+        self.fail("the program was a hundred times too fast")
+
+    @staticmethod
+    def reads(path):
+        """The program has its name by now: it is beyond the shell of Python that starts it."""
+        def is_there(process):
+            try:
+                names = {os.readlink(entry) for entry in pathlib.Path(f"/proc/{process.pid}/fd").iterdir()}
+            except OSError:
+                return False
+            return str(path.resolve()) in names
+        return is_there
 
     def expect_interrupted(self, process, number):
         process.send_signal(number)
+        process.send_signal(signal.SIGCONT)
         out, err = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 128 + number, err)
         self.assertEqual((out, err), (b"", b"patchproof: interrupted\n"))
@@ -92,14 +104,12 @@ class Interrupts(Command):
         self.assertEqual(sorted(p.name for p in self.dir.iterdir()), sorted(names))
 
     def test_while_a_model_is_read(self):
-        pipe, out = self.pipe(), self.dir / "report.json"
+        model, out = self.long_file(), self.dir / "report.json"
         out.write_text("of yesterday")
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            for words in (["certify", CUP, pipe, "--json", out], ["convert", pipe, out]):
+            for words in (["certify", CUP, model, "--json", out], ["convert", model, out]):
                 with self.subTest(words=words, number=number):
-                    process = self.start(*words)
-                    with self.writer(pipe, process):  # the program waits for the first bytes, to see what it is
-                        self.expect_interrupted(process, number)
+                    self.expect_interrupted(self.stopped(self.reads(model), *words), number)
                     self.assertEqual(out.read_text(), "of yesterday")
                     self.expect_files("model.json", "report.json")
 
@@ -130,15 +140,40 @@ class Interrupts(Command):
         self.expect_files("out.json")
 
     def test_what_is_ignored_stays_ignored(self):
-        pipe = self.pipe()
-        process = subprocess.Popen([PROGRAM, "convert", str(pipe), str(self.dir / "out.json")], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
-        self.addCleanup(process.kill)
-        with self.writer(pipe, process) as model:
-            process.send_signal(signal.SIGINT)
-            model.write(b"{}")
+        model = self.long_file()
+        process = self.stopped(self.reads(model), "convert", model, self.dir / "out.json",
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGCONT)
         process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, 2)  # a pipe is no model
+        self.assertEqual(process.returncode, 2)  # zeros are no model
+
+    def test_pipes_and_devices_are_not_waited_for(self):
+        pipe = self.dir / "pipe.step"
+        os.mkfifo(pipe)
+        for path in (pipe, "/dev/zero", "/dev/null", self.dir):
+            for words in (["certify", path], ["convert", path, self.dir / "out.json"], ["info", path]):
+                with self.subTest(words=words):
+                    self.expect_refusal(*words, names=[path, "cannot_open"])
+
+    def test_while_joins_are_certified(self):
+        if not self.reads_step():
+            self.skipTest("STEP files are not read by this build")
+        out = self.dir / "report.json"
+        out.write_text("of yesterday")
+
+        def certifies(process):  # in as many threads, once the file is read
+            try:
+                threads = len(os.listdir(f"/proc/{process.pid}/task"))
+            except OSError:
+                return False
+            return threads > 2 and out.read_text() == "of yesterday"
+
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = self.stopped(certifies, "certify", BLOCK, "--json", out, "--jobs", "4")
+            self.expect_interrupted(process, number)
+            self.assertEqual(out.read_text(), "of yesterday")
+            self.expect_files("report.json")
 
     def test_the_first_reading_in_a_child_ends_too(self):
         if not self.reads_step():

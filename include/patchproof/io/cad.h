@@ -13,9 +13,9 @@
 //          usable is refused, or left out, listed with the reason, and its edges are unusable;  (4) a face that stands in
 //          several places of an assembly is as many faces, each in its place;  (5) certify_cad's report does not depend on
 //          the number of jobs.
-// ERRORS   of read_cad_model: cannot_open, empty_input, syntax (Open CASCADE cannot read the file, or a part of a face),
-//          wrong_count (neither faces nor edges); of the first face that is not usable, whose label stands in `where`: unsupported,
-//          vanishing_weight, bad_number and those of knots.
+// ERRORS   of read_cad_model: cannot_open, empty_input, syntax (Open CASCADE cannot read the file, or a part of a face; in BREP
+//          files with the line), bad_reference (BREP: an index of nothing), wrong_count (neither faces nor edges); of the first face
+//          that is not usable, whose label stands in `where`: unsupported, vanishing_weight, bad_number and those of knots.
 // TEST     tests/io/cad_test.cpp
 #pragma once
 

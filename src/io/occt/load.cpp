@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "load.h"
 
-#include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESEntity.hxx>
@@ -149,7 +147,8 @@ void find_faults(Loaded& loaded, const XSControl_Reader& reader, const EntitiesO
   for (int i = 1; i <= faces.Extent(); ++i) {
     const Entity entity = all_read ? nullptr : entities.entity_of(faces(i));
     const Entity unread = entity.IsNull() ? nullptr : unread_part(model, graph, entity);
-    loaded.face_faults.push_back(unread.IsNull() ? "" : unread_text(model, unread));
+    loaded.face_faults.emplace_back();
+    if (!unread.IsNull()) loaded.face_faults.back() = Damage{ErrorCode::syntax, unread_text(model, unread)};
   }
 }
 
@@ -224,16 +223,6 @@ Result<Loaded> load_iges(const std::string& path, UnusableFaces unusable) {
   return loaded;
 }
 
-Result<Loaded> load_brep(const std::string& path) {
-  Loaded loaded;
-  BRep_Builder builder;
-  if (!BRepTools::Read(loaded.shape, path.c_str(), builder) || loaded.shape.IsNull())
-    return cannot_read(path, "Open CASCADE cannot read the BREP file");
-  label_all(loaded, [](const TopoDS_Shape&) { return std::string(); });
-  loaded.face_faults.resize(loaded.face_labels.size());
-  return loaded;
-}
-
 }  // namespace
 
 std::string format_of(std::string_view bytes) {
@@ -244,8 +233,18 @@ std::string format_of(std::string_view bytes) {
 
 std::string plain_label(const char* what, int index) { return std::string(what) + " " + std::to_string(index); }
 
-Result<Loaded> load(const std::string& path, const std::string& format, UnusableFaces unusable) {
-  return format == "step" ? load_step(path, unusable) : format == "brep" ? load_brep(path) : load_iges(path, unusable);
+Error about_faces(const std::string& path, const std::vector<LeftOutFace>& unusable) {
+  const LeftOutFace& face = unusable.front();
+  std::string more;
+  if (const std::size_t others = unusable.size() - 1; others > 0)
+    more = "; " + std::to_string(others) + (others == 1 ? " more face is" : " more faces are") + " not usable either";
+  return {face.code, path + " at " + face.label, "the face is not usable: " + face.reason + more, ""};
+}
+
+Result<Loaded> load(const std::string& path, std::string_view bytes, const std::string& format,
+                    UnusableFaces unusable) {
+  if (format == "brep") return load_brep(path, bytes, unusable);
+  return format == "step" ? load_step(path, unusable) : load_iges(path, unusable);
 }
 
 }  // namespace patchproof::occt

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "../report_text.h"
 #include "../source_file.h"
 #include "converted.h"
 #include "load.h"
@@ -98,11 +99,7 @@ TopoDS_Shape converted(const TopoDS_Shape& shape) {
 // The error about the first face that is not usable, when such faces are refused.
 std::optional<Error> refused(const CadModel& model, UnusableFaces unusable) {
   if (unusable == UnusableFaces::leave_out || model.left_out.empty()) return std::nullopt;
-  const LeftOutFace& face = model.left_out.front();
-  std::string more;
-  if (const std::size_t others = model.left_out.size() - 1; others > 0)
-    more = fmt::format("; {} more {} not usable either", others, others == 1 ? "face is" : "faces are");
-  return Error{face.code, model.path + " at " + face.label, "the face is not usable: " + face.reason + more, ""};
+  return about_faces(model.path, model.left_out);
 }
 
 class Reader {
@@ -122,21 +119,21 @@ class Reader {
     for (int i = 1; i <= after_.faces.Extent(); ++i)
       add_face(i, in_step_ ? kind_of(before_.face(i)) : "bspline",
                in_step_ ? loaded_.face_labels[i - 1] : plain_label("face", i),
-               in_step_ ? loaded_.face_faults[i - 1] : "");
+               in_step_ ? loaded_.face_faults[i - 1] : std::nullopt);
     if (auto error = refused(model_, unusable)) return error;
     for (int i = 1; i <= after_.edges.Extent(); ++i)
       if (!after_.faces_of(i).empty()) add_edge(i, in_step_ ? loaded_.edge_labels[i - 1] : plain_label("edge", i));
     for (int i = 1; i <= before_.edges.Extent(); ++i)
-      if (before_.faces_of(i).empty()) add_curve(before_.edge(i), loaded_.edge_labels[i - 1]);
+      if (before_.faces_of(i).empty()) add_curve(i, loaded_.edge_labels[i - 1]);
     return std::nullopt;
   }
 
  private:
-  void add_face(int index, const std::string& kind, const std::string& label, const std::string& fault) {
+  void add_face(int index, const std::string& kind, const std::string& label, const std::optional<Damage>& fault) {
     place_.push_back(-1);
     as_read_.push_back(in_step_ && same_spline(before_.face(index), after_.face(index)));
-    if (!fault.empty()) {
-      model_.left_out.push_back({label, ErrorCode::syntax, fault});
+    if (fault) {
+      model_.left_out.push_back({label, fault->code, fault->reason});
       return;
     }
     Result<BsplinePatch<Rational, 4>> surface = surface_of(as_read_.back() ? before_.face(index) : after_.face(index));
@@ -146,7 +143,7 @@ class Reader {
     }
     place_.back() = static_cast<int>(model_.faces.size());
     if (kind == "offset" || kind == "other")
-      model_.notes.push_back("face " + label + ": its " + kind + " surface is approximated by a B-spline");
+      model_.notes.push_back(named("face", label) + ": its " + kind + " surface is approximated by a B-spline");
     model_.faces.push_back({label, kind, std::move(*surface)});
   }
 
@@ -196,13 +193,13 @@ class Reader {
         if (away > out.tolerance && now < away / 2)
           return finish(
               CadEdgeKind::unusable,
-              fmt::format("its parameter curve on face {} is {:.3g} away from its curve in space, tolerance {:.3g}, "
+              fmt::format("its parameter curve on {} is {:.3g} away from its curve in space, tolerance {:.3g}, "
                           "and the conversion to B-splines replaces it",
-                          model_.faces[place_[index - 1]].label, away, out.tolerance));
+                          named("face", model_.faces[place_[index - 1]].label), away, out.tolerance));
         if (away > out.tolerance)
-          out.note +=
-              fmt::format("{}its parameter curve on face {} is {:.3g} away from its curve in space, tolerance {:.3g}",
-                          out.note.empty() ? "" : "; ", model_.faces[place_[index - 1]].label, away, out.tolerance);
+          out.note += fmt::format(
+              "{}its parameter curve on {} is {:.3g} away from its curve in space, tolerance {:.3g}",
+              out.note.empty() ? "" : "; ", named("face", model_.faces[place_[index - 1]].label), away, out.tolerance);
         out.uses.push_back({place_[index - 1], use.Orientation() == TopAbs_FORWARD, std::move(*parameters)});
         sources.push_back({use, natural});
       }
@@ -231,17 +228,20 @@ class Reader {
   }
 
   // An edge of no face.
-  void add_curve(const TopoDS_Edge& edge, const std::string& label) {
+  void add_curve(int index, const std::string& label) {
+    const TopoDS_Edge edge = before_.edge(index);
     const auto unusable = [&](CadEdgeKind kind, const std::string& note) {
       model_.edges.push_back({label, kind, {}, BRep_Tool::Tolerance(edge), note});
       out_.sources.emplace_back();
     };
     if (BRep_Tool::Degenerated(edge)) return unusable(CadEdgeKind::degenerate, "");
+    if (!loaded_.edge_faults.empty() && loaded_.edge_faults[index - 1])
+      return unusable(CadEdgeKind::unusable, loaded_.edge_faults[index - 1]->reason);
     Result<SpaceCurve> curve = curve_of(edge);
     if (!curve) return unusable(CadEdgeKind::unusable, curve.error().message);
     if (curve->converted)
       model_.notes.push_back(
-          "edge " + label + ": its " + curve->kind +
+          named("edge", label) + ": its " + curve->kind +
           " is a B-spline as Open CASCADE converts it: derivatives are that of the B-spline's parameter");
     CadCurve out{label, curve->kind, std::move(curve->curve), {}};
     const auto forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
@@ -265,8 +265,8 @@ class Reader {
 
 namespace {
 
-Result<Converted> read_here(const std::string& path, const std::string& sha256, const std::string& format,
-                            UnusableFaces unusable) {
+Result<Converted> read_here(const std::string& path, std::string_view bytes, const std::string& sha256,
+                            const std::string& format, UnusableFaces unusable) {
   Converted out;
   CadModel& model = out.model;
   model.path = path;
@@ -277,7 +277,7 @@ Result<Converted> read_here(const std::string& path, const std::string& sha256, 
   };
   Loaded loaded;
   try {
-    Result<Loaded> result = load(path, model.format, unusable);
+    Result<Loaded> result = load(path, bytes, model.format, unusable);
     if (!result) return result.error();
     loaded = std::move(*result);
   } catch (const Standard_Failure&) {
@@ -314,12 +314,12 @@ Result<Converted> read_converted(const std::string& path, UnusableFaces unusable
   const Silence silence;
   const auto megabytes = static_cast<unsigned>(bytes->size() >> 20);
   const auto gave_up = [&](const char* what) { return Error{ErrorCode::syntax, path, what, ""}; };
-  switch (rehearse([&] { (void)read_here(path, "", format, unusable); }, 10 + 60 * megabytes)) {
+  switch (rehearse([&] { (void)read_here(path, *bytes, "", format, unusable); }, 10 + 60 * megabytes)) {
     case Rehearsal::crashed: return gave_up("the file is damaged: Open CASCADE breaks down on it");
     case Rehearsal::too_long: return gave_up("the file is damaged: Open CASCADE does not come to an end with it");
     case Rehearsal::fine: break;
   }
-  return read_here(path, sha256_of(*bytes), format, unusable);
+  return read_here(path, *bytes, sha256_of(*bytes), format, unusable);
 }
 
 }  // namespace patchproof::occt

@@ -2,6 +2,7 @@
 // Files that are damaged or hold what cannot be used: named errors, nothing printed, no exception, no crash.
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <TopTools_FormatVersion.hxx>
 
 #include <random>
 
@@ -100,12 +101,93 @@ TEST_F(DamagedFiles, Law3_TheOtherFacesAreReported) {
   EXPECT_EQ(report.cad->left_out[0].label, model.left_out[0].label);
 }
 
+// A number of a BREP file, by the first text like it in a table.
+class DamagedBreps : public DamagedFiles {
+ protected:
+  const std::string tube_brep_ =
+      text_of(write_brep(BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeCylinder(5, 12).Shape(), true).Shape()));
+
+  std::string damaged(const std::string& table, const std::string& from, const std::string& to) const {
+    return with(tube_brep_, from, to, tube_brep_.find("\n" + table + " "));
+  }
+  // Named by face and entity, with the number; when such faces are left out, the others are there.
+  void expect_left_out(const std::string& text, ErrorCode code, const std::string& words, std::size_t faces) const {
+    const Error error = refused("damaged.brep", text);
+    expect(code, words, error);
+    EXPECT_NE(error.where.find(" at face "), std::string::npos) << error.text();
+    if (faces == 0) return;
+    const CadModel model = read(path("damaged.brep"), UnusableFaces::leave_out);
+    EXPECT_EQ(model.left_out.size(), 3 - faces);
+    EXPECT_EQ(model.faces.size(), faces);
+    EXPECT_NE(model.left_out.at(0).reason.find(words), std::string::npos) << model.left_out[0].reason;
+  }
+};
+
+TEST_F(DamagedBreps, Law1_NumbersAreNamedWithTheirEntity) {
+  for (const char* value : {"abc", "nan", "inf", "1e999", "1e200", "1,5"}) {
+    const std::string is = std::string(" is ") + value + ",";
+    expect_left_out(damaged("Surfaces", "\n5 8.6602540378443837 ", std::string("\n5 ") + value + " "),
+                    ErrorCode::bad_number,
+                    "surface 1 (line 29): a coordinate of control point (2, 1) is " + std::string(value), 0);
+    expect_left_out(damaged("Surfaces", "  0.5 5", std::string("  ") + value + " 5"), ErrorCode::bad_number,
+                    "the weight of control point (2, 1)" + is, 2);
+    expect_left_out(damaged("Curves", "  0.50000000000000011 ", std::string("  ") + value + " "), ErrorCode::bad_number,
+                    "curve 1 (line 19): the weight of control point 2" + is, 0);
+    expect_left_out(damaged("Curve2ds", "  1.0471975511965979 ", std::string("  ") + value + " "),
+                    ErrorCode::bad_number, "parameter curve 1 (line 6): a coordinate of control point 2" + is, 2);
+    expect_left_out(damaged("Surfaces", "\n2.0943951023931953 ", std::string("\n") + value + " "),
+                    ErrorCode::bad_number, "knot 2 along u" + is, 2);
+  }
+  for (const char* value : {"-0.25", "0"}) {
+    const std::string is = std::string(" is ") + value + ", not positive";
+    expect_left_out(damaged("Surfaces", "  0.5 5", std::string("  ") + value + " 5"), ErrorCode::unsupported,
+                    "the weight of control point (2, 1)" + is, 2);
+    expect_left_out(damaged("Curves", "  0.50000000000000011 ", std::string("  ") + value + " "),
+                    ErrorCode::unsupported, "the weight of control point 2" + is, 1);
+  }
+  expect_left_out(damaged("Surfaces", "\n2.0943951023931953 ", "\n0 "), ErrorCode::decreasing_knots,
+                  "knot 2 along u is not above the one before it: 0 after 0", 2);
+  expect_left_out(damaged("Surfaces", "\n2.0943951023931953 2", "\n2.0943951023931953 7"), ErrorCode::unsupported,
+                  "surface 1 (line 28): Open CASCADE builds none from it", 2);
+  expect_left_out(damaged("TShapes", "Ve\n1e-07\n5 ", "Ve\n1e-07\nfive "), ErrorCode::bad_number,
+                  "shape 1, a vertex (line 66): a coordinate is five", 1);
+}
+
+TEST_F(DamagedBreps, Law3_WhatCannotBeCountedIsRefused) {
+  for (const char* count : {"-3", "4", "99999999", "99999999999999999999", "three"}) {
+    const Error error = refused("count.brep", damaged("Surfaces", "Surfaces 3", std::string("Surfaces ") + count));
+    EXPECT_EQ(error.code, ErrorCode::syntax);
+    EXPECT_NE(error.where.find(" at Surfaces"), std::string::npos) << error.text();
+  }
+  for (std::size_t k = 1; k < 20; ++k) {
+    const Error error = refused("cut.brep", tube_brep_.substr(0, tube_brep_.size() * k / 20));
+    EXPECT_EQ(error.code, ErrorCode::syntax);  // the last word may be cut in two
+    EXPECT_NE(error.where.find("cut.brep:"), std::string::npos) << error.text();
+  }
+  expect(ErrorCode::bad_reference, "[+99]", refused("part.brep", damaged("TShapes", "\n+6 0", "\n+99 0")));
+}
+
+TEST_F(DamagedBreps, UndamagedFilesOfAllVersionsAreRead) {
+  gp_Trsf turned;
+  turned.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 2, 3)), 1);
+  const TopoDS_Compound all = compound({rounded_block(), moved(BRepPrimAPI_MakeCylinder(5, 12).Shape(), turned)});
+  for (const auto version :
+       {TopTools_FormatVersion_VERSION_1, TopTools_FormatVersion_VERSION_2, TopTools_FormatVersion_VERSION_3}) {
+    BRepTools::Write(all, path("all.brep").c_str(), true, false, version);
+    const CadModel model = read(path("all.brep"));
+    EXPECT_EQ(model.faces.size(), 26u + 3u);
+    EXPECT_EQ(count(model, CadEdgeKind::shared), 48 + 2);
+  }
+}
+
 // Bytes changed at random: an answer or an error, within the time.
 TEST_F(DamagedFiles, RandomDamage) {
   std::mt19937 random(11);
   const std::string iges = text_of(write_iges(box()));
   int read_well = 0;
-  for (const auto& [name, good] : {std::pair<const char*, const std::string&>{"a.step", box_}, {"a.igs", iges}})
+  const std::string brep = text_of(write_brep(rounded_block()));
+  for (const auto& [name, good] :
+       {std::pair<const char*, const std::string&>{"a.step", box_}, {"a.igs", iges}, {"a.brep", brep}})
     for (int i = 0; i < 25; ++i) {
       std::string text = good;
       for (int k = 0; k < 3; ++k) text[random() % text.size()] = static_cast<char>(random());
