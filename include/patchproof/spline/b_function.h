@@ -10,7 +10,7 @@
 // A function that is exact (polynomials, rational) is evaluated in the field of t. The others are enclosed: the expo-rational
 // one by Taylor panels with proved remainders, its constant S by the same panels, never from a table of digits.
 //
-// REQUIRES 0 ≤ t ≤ 1. Enclosures may stick out of [0, 1] by rounding; of exact functions the formula is continued there, of
+// REQUIRES 0 ≤ t ≤ 1. For double: rounding to nearest. Enclosures may stick out of [0, 1] by rounding; of exact functions the formula is continued there, of
 //          the others what sticks out is cut off. A RoundingGuard for Interval and TaylorModel.
 // ENSURES  (1) order_at_begin() and order_at_end() derivatives vanish at 0 and at 1 exactly, and for exact functions no more;
 //          polynomial(n) has B^(n+1)(0) = (2n+1)!/n! and B^(n+1)(1) = (−1)^n (2n+1)!/n!;
@@ -25,7 +25,7 @@
 // SCALARS  exact functions: any Field into which Rational embeds. Others: Transcendental, and Rational and Quadratic at t = 0
 //          and t = 1 for the derivatives that are exactly 0 there (contract_error beyond).
 // ERRORS   usage: an order below 0 or above kMaxOrder; λ not in (0, 1), where a derivative at an end would not vanish; α, β, γ
-//          not positive; parameters out of kSmallest…kLargest limits below; parse: syntax, bad_number.
+//          not positive; parameters beyond the limits said below; parse: syntax, bad_number.
 //          not_monotone: a polynomial whose derivative is negative somewhere, with the place where it changes sign, or with
 //          B(0) ≠ 0 or B(1) ≠ 1.
 // COST     exact: O(n²) per derivative. Ball of expo-rational: some hundred products, after tables that are built once per
@@ -73,7 +73,7 @@ class BFunction {
   static Result<BFunction> rational(int order);
   static BFunction trigonometric();
   static BFunction logistic();
-  // 1/8 ≤ α, γ ≤ 8, 1/16 ≤ β ≤ 16, 1/16 ≤ λ ≤ 15/16.
+  // 1/2 ≤ α ≤ 8, 1/2 ≤ αγ ≤ 8, 1/16 ≤ β ≤ 16, 1/16 ≤ λ ≤ 15/16.
   static Result<BFunction> expo_rational(const Rational& alpha = Rational(1), const Rational& beta = Rational(1),
                                          const Rational& gamma = Rational(1),
                                          const Rational& lambda = Rational(1) / Rational(2));
@@ -122,6 +122,8 @@ std::vector<R> derivatives(const BFunction& b, const R& t, int order);
 // remainders of their polynomials and the roundings of Horner's rule. REQUIRES 0 ≤ k ≤ 3 (k ≤ smoothness()), b is not exact.
 // Where p is not an even integer the tables end beside λ, at a distance where φ differs from 1 by less than the enclosures show.
 double double_error(const BFunction& b, int k);
+// double_error(b, 0) of the trigonometric, the logistic and the usual expo-rational function is at most this: 2^-50.
+inline constexpr double kBFunctionDoubleError = 1 / static_cast<double>(1LL << 50);
 
 // ---------------------------------------------------------------------------------------------------------------------
 
