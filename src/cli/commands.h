@@ -18,7 +18,9 @@ void add_evaluate(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
 void add_fill(CLI::App& app, int& exit_code);
+void add_fit(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
+void add_tessellate(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 
 // Prints the error on standard error and returns kBadInput.

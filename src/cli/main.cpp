@@ -19,9 +19,11 @@ int main(int argc, char** argv) {
   add_certify(app, exit_code);
   add_evaluate(app, exit_code);
   add_fill(app, exit_code);
+  add_fit(app, exit_code);
   add_info(app, exit_code);
   add_convert(app, exit_code);
   add_plot(app, exit_code);
+  add_tessellate(app, exit_code);
   add_validate(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/samples.h"
+
+#include <algorithm>
+
+namespace patchproof::cli {
+
+NumberText split_numbers(std::string name, std::string text) {
+  NumberText out{std::make_unique<std::string>(std::move(text)), {std::move(name), {}}, {}};
+  out.file.bytes = *out.bytes;
+  const auto separates = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; };
+  for (std::string_view rest = out.file.bytes; !rest.empty();) {
+    const std::size_t length = std::min(rest.find('\n'), rest.size());
+    std::string_view line = rest.substr(0, length);
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+    line = line.substr(0, line.find('#'));
+    std::vector<std::string_view> words;
+    while (true) {
+      while (!line.empty() && separates(line.front())) line.remove_prefix(1);
+      if (line.empty()) break;
+      const auto end = std::find_if(line.begin(), line.end(), separates);
+      words.push_back(line.substr(0, static_cast<std::size_t>(end - line.begin())));
+      line.remove_prefix(words.back().size());
+    }
+    if (!words.empty()) out.lines.push_back(std::move(words));
+  }
+  return out;
+}
+
+Result<NumberText> load_numbers(const std::string& path) {
+  Result<std::string> bytes = load_file(path);
+  if (!bytes) return bytes.error();
+  return split_numbers(path, std::move(*bytes));
+}
+
+bool mentions_root(const NumberText& text) {
+  for (const auto& line : text.lines)
+    for (const std::string_view word : line)
+      if (patchproof::mentions_root(word)) return true;
+  return false;
+}
+
+template <ExactField T>
+Result<T> read_number(const NumberText& text, std::string_view word, Decimals decimals, int& root) {
+  Result<T> x = parse_scalar<T>(word, decimals);
+  if (!x) return text.file.error(x.error().code, word, x.error().message, word);
+  if constexpr (std::same_as<T, Quadratic>) {
+    const int own = x->root();
+    if (own != 1 && root != 1 && own != root)
+      return text.file.error(ErrorCode::mixed_roots, word,
+                             "a square root of " + std::to_string(own) + " beside one of " + std::to_string(root),
+                             word);
+    if (own != 1) root = own;
+  }
+  return x;
+}
+template Result<Rational> read_number<Rational>(const NumberText&, std::string_view, Decimals, int&);
+template Result<Quadratic> read_number<Quadratic>(const NumberText&, std::string_view, Decimals, int&);
+
+}  // namespace patchproof::cli
