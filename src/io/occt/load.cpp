@@ -30,6 +30,7 @@
 #include <set>
 
 #include "entities_of_shapes.h"
+#include "step_numbers.h"
 
 namespace patchproof::occt {
 namespace {
@@ -80,34 +81,63 @@ void label_by_entity(Loaded& loaded, const XSControl_Reader& reader, const Entit
   });
 }
 
-// Open CASCADE leaves zeros where a parameter cannot be read. Texts do not matter: real files have $ for empty names.
-bool is_unread(const Model& model, int number) {
-  if (number <= 0) return false;
-  const auto check = model->Check(number, true);
-  for (int i = 1; i <= check->NbFails(); ++i)
-    if (std::string_view(check->CFail(i)).find("not a quoted String") == std::string_view::npos) return true;
-  return check->NbFails() == 0 && model->IsErrorEntity(number);
-}
-
-// An entity that could not be read, among an entity and all that it refers to; null when there is none.
-Entity unread_part(const Model& model, const Interface_Graph& graph, const Entity& root) {
-  std::set<int> seen;
-  std::vector<Entity> waiting{root};
-  while (!waiting.empty()) {
-    const Entity entity = waiting.back();
-    waiting.pop_back();
-    const int number = model->Number(entity);
-    if (!seen.insert(number).second) continue;
-    if (is_unread(model, number)) return entity;
-    for (Interface_EntityIterator part = graph.Shareds(entity); part.More(); part.Next())
-      waiting.push_back(part.Value());
+// What of a file cannot be read as it stands there.
+class Unread {
+ public:
+  Unread(const XSControl_Reader& reader, BadNumbers numbers)
+      : model_(reader.WS()->Model()), graph_(reader.WS()->Graph()), numbers_(std::move(numbers)) {
+    for (int i = 1; i <= model_->NbEntities(); ++i) none_ = none_ && !is(i);
   }
-  return nullptr;
-}
 
-std::string unread_text(const Model& model, const Entity& part) {
-  return std::string("entity ") + model->StringLabel(part)->ToCString() + " of it cannot be read";
-}
+  // An entity, among an entity and all that it refers to; null when there is none.
+  Entity part_of(const Entity& root) const {
+    if (none_) return nullptr;
+    std::set<int> seen;
+    std::vector<Entity> waiting{root};
+    while (!waiting.empty()) {
+      const Entity entity = waiting.back();
+      waiting.pop_back();
+      const int number = model_->Number(entity);
+      if (!seen.insert(number).second) continue;
+      if (is(number)) return entity;
+      for (Interface_EntityIterator part = graph_.Shareds(entity); part.More(); part.Next())
+        waiting.push_back(part.Value());
+    }
+    return nullptr;
+  }
+
+  // "entity #12 of it cannot be read: line 40 has NAN, no number that can be used"
+  std::string text(const Entity& part) const {
+    const std::string out = std::string("entity ") + model_->StringLabel(part)->ToCString() + " of it cannot be read";
+    const auto bad = numbers_.find(label_of(part));
+    return bad == numbers_.end() ? out : out + ": " + text(bad->second);
+  }
+  static std::string text(const BadNumber& bad) {
+    return "line " + std::to_string(bad.line) + " has " + bad.value + ", no number that can be used";
+  }
+
+  const BadNumbers& numbers() const { return numbers_; }
+
+ private:
+  long label_of(const Entity& entity) const {
+    const auto step = opencascade::handle<StepData_StepModel>::DownCast(model_);
+    return step.IsNull() ? 0 : step->IdentLabel(entity);
+  }
+  // Open CASCADE leaves zeros where a parameter cannot be read. Texts do not matter: real files have $ for empty names.
+  bool is(int number) const {
+    if (number <= 0) return false;
+    if (!numbers_.empty() && numbers_.count(label_of(model_->Value(number)))) return true;
+    const auto check = model_->Check(number, true);
+    for (int i = 1; i <= check->NbFails(); ++i)
+      if (std::string_view(check->CFail(i)).find("not a quoted String") == std::string_view::npos) return true;
+    return check->NbFails() == 0 && model_->IsErrorEntity(number);
+  }
+
+  const Model model_;
+  const Interface_Graph& graph_;
+  const BadNumbers numbers_;
+  bool none_ = true;
+};
 
 bool has_weight_not_positive(const Entity& face) {
   const auto with_surface = opencascade::handle<StepShape_FaceSurface>::DownCast(face);
@@ -123,19 +153,17 @@ bool has_weight_not_positive(const Entity& face) {
 
 // Which faces of the file are missing in the shape, and which hold numbers that are not in the file.
 template <class IsFace>
-void find_faults(Loaded& loaded, const XSControl_Reader& reader, const EntitiesOfShapes& entities, IsFace is_face) {
+void find_faults(Loaded& loaded, const XSControl_Reader& reader, const EntitiesOfShapes& entities, const Unread& unread,
+                 IsFace is_face) {
   const Model model = reader.WS()->Model();
-  bool all_read = true;
-  for (int i = 1; i <= model->NbEntities(); ++i) all_read = all_read && !is_unread(model, i);
-  const Interface_Graph& graph = reader.WS()->Graph();
   const auto& process = reader.WS()->TransferReader()->TransientProcess();
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Entity entity = model->Value(i);
     if (!is_face(entity) || !TransferBRep::ShapeResult(process, entity).IsNull()) continue;
-    const Entity unread = all_read ? nullptr : unread_part(model, graph, entity);
+    const Entity part = unread.part_of(entity);
     const std::string label = entity_label(model, entity);
-    if (!unread.IsNull())
-      loaded.missing.push_back({label, ErrorCode::syntax, unread_text(model, unread)});
+    if (!part.IsNull())
+      loaded.missing.push_back({label, ErrorCode::syntax, unread.text(part)});
     else if (has_weight_not_positive(entity))
       loaded.missing.push_back({label, ErrorCode::unsupported,
                                 "its surface has a weight that is not positive: Open CASCADE knows no such surfaces"});
@@ -145,10 +173,9 @@ void find_faults(Loaded& loaded, const XSControl_Reader& reader, const EntitiesO
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(loaded.shape, TopAbs_FACE, faces);
   for (int i = 1; i <= faces.Extent(); ++i) {
-    const Entity entity = all_read ? nullptr : entities.entity_of(faces(i));
-    const Entity unread = entity.IsNull() ? nullptr : unread_part(model, graph, entity);
+    const Entity entity = entities.entity_of(faces(i)), part = entity.IsNull() ? nullptr : unread.part_of(entity);
     loaded.face_faults.emplace_back();
-    if (!unread.IsNull()) loaded.face_faults.back() = Damage{ErrorCode::syntax, unread_text(model, unread)};
+    if (!part.IsNull()) loaded.face_faults.back() = Damage{ErrorCode::syntax, unread.text(part)};
   }
 }
 
@@ -161,30 +188,48 @@ bool is_iges_face(const Entity& entity) {
   return type == 143 || type == 144 || type == 510;
 }
 
-std::optional<Error> first_unread_face(const std::string& path, const XSControl_Reader& reader,
+std::optional<Error> first_unread_face(const std::string& path, const XSControl_Reader& reader, const Unread& unread,
                                        bool (*is_face)(const Entity&)) {
   const Model model = reader.WS()->Model();
-  bool all_read = true;
-  for (int i = 1; i <= model->NbEntities(); ++i) all_read = all_read && !is_unread(model, i);
-  if (all_read) return std::nullopt;
-  const Interface_Graph& graph = reader.WS()->Graph();
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Entity entity = model->Value(i);
     if (!is_face(entity)) continue;
-    if (const Entity unread = unread_part(model, graph, entity); !unread.IsNull())
+    if (const Entity part = unread.part_of(entity); !part.IsNull())
       return Error{ErrorCode::syntax, path + " at " + entity_label(model, entity),
-                   "the face is not usable: " + unread_text(model, unread), ""};
+                   "the face is not usable: " + unread.text(part), ""};
   }
   return std::nullopt;
 }
 
-Result<Loaded> load_step(const std::string& path, UnusableFaces unusable) {
+// Of a STEP file: no face, but a placement or a unit perhaps.
+std::optional<Error> first_bad_number(const std::string& path, const BadNumbers& numbers) {
+  if (numbers.empty()) return std::nullopt;
+  const auto& [entity, bad] = *numbers.begin();
+  return Error{ErrorCode::syntax, path + " at #" + std::to_string(entity), Unread::text(bad), ""};
+}
+
+// Faces that cannot be read lose their surfaces, so that Open CASCADE does not try to build them from zeros.
+void drop_unread_faces(const XSControl_Reader& reader, const Unread& unread) {
+  const Model model = reader.WS()->Model();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto face = opencascade::handle<StepShape_FaceSurface>::DownCast(model->Value(i));
+    if (!face.IsNull() && !unread.part_of(face).IsNull()) face->SetFaceGeometry(nullptr);
+  }
+}
+
+Result<Loaded> load_step(const std::string& path, std::string_view bytes, UnusableFaces unusable) {
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     return cannot_read(path, "Open CASCADE cannot read the STEP file");
-  if (unusable == UnusableFaces::refuse)
-    if (const auto error = first_unread_face(path, reader, is_step_face)) return *error;
+  const Unread unread(reader, bad_step_numbers(bytes));
+  if (unusable == UnusableFaces::refuse) {
+    if (const auto error = first_unread_face(path, reader, unread, is_step_face)) return *error;
+    if (const auto error = first_bad_number(path, unread.numbers())) return *error;
+  }
+  drop_unread_faces(reader, unread);
   Loaded loaded;
+  for (const auto& [entity, bad] : unread.numbers())  // of what is no face, too
+    if (loaded.notes.size() < 10) loaded.notes.push_back("#" + std::to_string(entity) + ": " + Unread::text(bad));
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
   loaded.units = "mm";  // Open CASCADE converts
@@ -194,7 +239,7 @@ Result<Loaded> load_step(const std::string& path, UnusableFaces unusable) {
   loaded.shape = reader.OneShape();
   const EntitiesOfShapes entities(reader);
   if (!loaded.shape.IsNull()) label_by_entity(loaded, reader, entities);
-  find_faults(loaded, reader, entities, is_step_face);
+  find_faults(loaded, reader, entities, unread, is_step_face);
   if (loaded.shape.IsNull() && loaded.missing.empty())
     return cannot_read(path, "the STEP file holds no shape that Open CASCADE can build");
   return loaded;
@@ -208,8 +253,9 @@ Result<Loaded> load_iges(const std::string& path, UnusableFaces unusable) {
   loaded.units = "mm";
   const auto model = opencascade::handle<IGESData_IGESModel>::DownCast(reader.WS()->Model());
   if (model.IsNull()) return cannot_read(path, "Open CASCADE cannot read the IGES file");
+  const Unread unread(reader, {});
   if (unusable == UnusableFaces::refuse)
-    if (const auto error = first_unread_face(path, reader, is_iges_face)) return *error;
+    if (const auto error = first_unread_face(path, reader, unread, is_iges_face)) return *error;
   const auto unit = model->GlobalSection().UnitName();
   if (!unit.IsNull() && unit->Length() > 0 && !unit->IsSameString(new TCollection_HAsciiString("MM")))
     loaded.units += std::string(" (file: ") + unit->ToCString() + ")";
@@ -217,7 +263,7 @@ Result<Loaded> load_iges(const std::string& path, UnusableFaces unusable) {
   loaded.shape = reader.OneShape();
   const EntitiesOfShapes entities(reader);
   if (!loaded.shape.IsNull()) label_by_entity(loaded, reader, entities);
-  find_faults(loaded, reader, entities, is_iges_face);
+  find_faults(loaded, reader, entities, unread, is_iges_face);
   if (loaded.shape.IsNull() && loaded.missing.empty())
     return cannot_read(path, "the IGES file holds no shape that Open CASCADE can build");
   return loaded;
@@ -244,7 +290,7 @@ Error about_faces(const std::string& path, const std::vector<LeftOutFace>& unusa
 Result<Loaded> load(const std::string& path, std::string_view bytes, const std::string& format,
                     UnusableFaces unusable) {
   if (format == "brep") return load_brep(path, bytes, unusable);
-  return format == "step" ? load_step(path, unusable) : load_iges(path, unusable);
+  return format == "step" ? load_step(path, bytes, unusable) : load_iges(path, unusable);
 }
 
 }  // namespace patchproof::occt

@@ -17,6 +17,7 @@ namespace patchproof::occt {
 struct Loaded {
   TopoDS_Shape shape;
   std::string units;
+  std::vector<std::string> notes;
   // In the orders of TopExp::MapShapes (faces) and TopExp::MapShapesAndAncestors (edges, with their faces).
   std::vector<std::string> face_labels, edge_labels;
   // Of faces, and of edges, that hold what could not be read as it stands in the file: Open CASCADE, or we, put something

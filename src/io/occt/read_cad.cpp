@@ -284,6 +284,7 @@ Result<Converted> read_here(const std::string& path, std::string_view bytes, con
     return failed("to read the file");
   }
   model.units = loaded.units;
+  model.notes = loaded.notes;
   model.left_out = std::move(loaded.missing);
   if (const auto error = refused(model, unusable)) return *error;
   try {

@@ -77,6 +77,28 @@ TEST_F(DamagedFiles, EntitiesThatCannotBeReadAreNamed) {
   EXPECT_NE(wrong.where.find(" at #"), std::string::npos) << wrong.text();
 }
 
+// Of the other faces something is left, at once: Open CASCADE never sees what is not finite.
+TEST_F(DamagedFiles, NumbersOfStepFilesThatAreNotFinite) {
+  for (const char* value : {"NAN", "-INF", "1.E999", "-1.E200", "1.5.2"}) {
+    const std::string text =
+        with(tube_, "CARTESIAN_POINT('',(5.,0.,12.", std::string("CARTESIAN_POINT('',(") + value + ",0.,12.");
+    const Error error = refused("value.step", text);
+    expect(ErrorCode::syntax, " of it cannot be read: line ", error);
+    EXPECT_NE(error.where.find(" at #"), std::string::npos) << error.text();
+    const CadModel model = read(path("value.step"), UnusableFaces::leave_out);
+    EXPECT_GT(model.left_out.size(), 0u);
+    EXPECT_GT(model.faces.size(), 0u);
+  }
+  // Beside the faces: the placement of the part.
+  const std::string placed = with(tube_, "DIRECTION('',(0.,0.,1.", "DIRECTION('',(0.,0.,1.E999");
+  expect(ErrorCode::syntax, "has 1.E999", refused("placement.step", placed));
+  EXPECT_EQ(read(path("placement.step"), UnusableFaces::leave_out).notes.size(), 1u);
+  // Names, comments and keywords are no numbers.
+  const std::string named = with(with(tube_, "CARTESIAN_POINT('',", "CARTESIAN_POINT('it''s NAN, 1.E999',"), "DATA;",
+                                 "DATA; /* (INF, 'NAN */");
+  EXPECT_EQ(read(write_text("named.step", named)).faces.size(), 3u);
+}
+
 TEST_F(DamagedFiles, SurfacesThatCannotBeUsedAreNamed) {
   const std::size_t surface = tube_.find("RATIONAL_B_SPLINE_SURFACE");
   for (const char* weight : {"-0.25", "0."}) {
