@@ -60,8 +60,9 @@ std::array<std::vector<T>, 2> blend_factors(const BFunction& b, const K& begin, 
                                             const K& to) {
   auto [n, d] = b_function_pieces<T>(b, begin, end);
   const auto part_of = [&](const Piecewise<T, 1, K>& f) {
+    const Piecewise<T, 1, K> part = window(f, from, to);
     std::vector<T> out;
-    for (const Vec<T, 1>& p : window(f, from, to).front().points) out.push_back(p[0]);
+    for (const Vec<T, 1>& p : part.front().points) out.push_back(p[0]);
     return out;
   };
   return {part_of(sum(d, scale(T(-1), n))), part_of(n)};

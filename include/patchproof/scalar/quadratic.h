@@ -14,6 +14,7 @@
 #include <compare>
 
 #include "patchproof/contract.h"
+#include "patchproof/scalar/ball.h"
 #include "patchproof/scalar/concepts.h"
 #include "patchproof/scalar/interval.h"
 #include "patchproof/scalar/rational.h"
@@ -89,6 +90,12 @@ struct embedding<Interval, Quadratic> {
 template <>
 struct embedding<double, Quadratic> {
   static double apply(const Quadratic& x) { return nearest_double(x); }
+};
+template <>
+struct embedding<Ball, Quadratic> {
+  static Ball apply(const Quadratic& x) {
+    return Ball(x.rational_part()) + Ball(x.root_coefficient()) * sqrt(Ball(x.root()));
+  }
 };
 
 }  // namespace patchproof
