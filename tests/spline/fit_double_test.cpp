@@ -30,13 +30,16 @@ double expect_within(const CertifiedFit<Rational, N>& found, const BsplineCurve<
   return share;
 }
 
+Rational power_of_two(int exponent) { return from_double(std::ldexp(double(1), exponent)); }
+
+// Coordinates and weights of very different sizes.
 CurveSamples<Rational, 2> random_samples(RandomRationals& random, const KnotVector<Rational>& knots, int count) {
   CurveSamples<Rational, 2> out;
   const Rational length = knots.domain_end() - knots.domain_begin();
   for (int a = 0; a < count; ++a) {
     out.parameters.push_back(knots.domain_begin() + length * Rational(random.integer(0, 97)) / Rational(97));
-    out.points.push_back(random.point<2>());
-    out.weights.push_back(Rational(random.integer(1, 30)) / Rational(random.integer(1, 7)));
+    out.points.push_back(power_of_two(random.integer(-40, 40)) * random.point<2>());
+    out.weights.push_back(power_of_two(random.integer(-20, 20)) / Rational(random.integer(1, 7)));
   }
   return out;
 }
@@ -44,8 +47,8 @@ CurveSamples<Rational, 2> random_samples(RandomRationals& random, const KnotVect
 TEST(FitDouble, Law1_BoundsHoldAndAreApproached) {
   RandomRationals random;
   int fitted = 0;
-  double share = 0, widest = 0;
-  for (int round = 0; round < 150; ++round) {
+  double share = 0;
+  for (int round = 0; round < 300; ++round) {
     const int degree = random.integer(0, 5), count = degree + random.integer(1, 12);
     const auto knots = KnotVector<Rational>::make(degree, random.knots(degree, count)).value();
     const auto samples = random_samples(random, knots, count + random.integer(0, 30));
@@ -59,12 +62,10 @@ TEST(FitDouble, Law1_BoundsHoldAndAreApproached) {
     ASSERT_TRUE(found.has_value()) << found.error().text();
     ++fitted;
     share = std::max(share, expect_within(*found, *exact));
-    if (found->is_certified()) widest = std::max(widest, found->largest_error());
   }
   EXPECT_GT(fitted, 20);
-  EXPECT_GT(share, 0.05);
+  EXPECT_GT(share, 0.02);  // not fifty times what is needed
   RecordProperty("largest_share_of_a_bound", std::to_string(share));
-  RecordProperty("widest_bound", std::to_string(widest));
 }
 
 TEST(FitDouble, Law1_UniformFitsAreNarrow) {
@@ -74,10 +75,12 @@ TEST(FitDouble, Law1_UniformFitsAreNarrow) {
                                     random.points<2>(120)};
   const auto found = fit_curve_double(knots, samples).value();
   ASSERT_TRUE(found.is_certified());
-  EXPECT_LT(found.largest_error(), 1e-12);
-  expect_within(found, fit_curve(knots, samples).value());
-  // The curves stay as near between the control points, exactly.
   const auto exact = fit_curve(knots, samples).value();
+  Rational size(0);
+  for (const Vec<Rational, 2>& p : exact.points()) size = std::max({size, Rational(abs(p[0])), Rational(abs(p[1]))});
+  EXPECT_LT(found.largest_error(), 1e-13 * nearest_double(size));
+  expect_within(found, exact);
+  // The curves stay as near between the control points, exactly.
   std::vector<Vec<Rational, 2>> doubles;
   for (const auto& p : found.curve.points()) doubles.push_back({{from_double(p[0]), from_double(p[1])}});
   const BsplineCurve<Rational, 2> near(knots, doubles);
