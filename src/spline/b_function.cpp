@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <deque>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "patchproof/scalar/parse_scalar.h"
@@ -29,6 +32,24 @@ int flatness(const std::vector<Rational>& b) {
 std::string joined(const std::vector<Rational>& numbers) {
   std::string out;
   for (const Rational& x : numbers) out += (out.empty() ? "" : ",") + to_text(x);
+  return out;
+}
+
+// Functions of the same parameters share their tables, as long as one of them lives and some time longer.
+std::shared_ptr<const detail::SmoothBFunction> shared_tables(const BFunction::Intrinsic& x, const std::string& name) {
+  constexpr std::size_t kKept = 8;
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const detail::SmoothBFunction>> known;
+  static std::deque<std::shared_ptr<const detail::SmoothBFunction>> latest;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const detail::SmoothBFunction>& place = known[name];
+  auto out = place.lock();
+  if (!out) {
+    std::erase_if(known, [&name](const auto& entry) { return entry.first != name && entry.second.expired(); });
+    place = out = detail::make_expo_rational(x);
+    latest.push_back(out);
+    if (latest.size() > kKept) latest.pop_front();
+  }
   return out;
 }
 
@@ -85,8 +106,7 @@ Result<BFunction> BFunction::expo_rational(const Rational& alpha, const Rational
   if (!lies(lambda, sixteenth, 1 - sixteenth)) return refuse("lambda", lambda, "enclosures exist for 1/16 to 15/16");
   BFunction out(Kind::expo_rational, {}, {});
   out.intrinsic_ = Intrinsic{alpha, beta, gamma, lambda};
-  static const std::shared_ptr<const detail::SmoothBFunction> usual = detail::make_expo_rational(Intrinsic());
-  out.smooth_ = *out.intrinsic_ == Intrinsic() ? usual : detail::make_expo_rational(*out.intrinsic_);
+  out.smooth_ = shared_tables(*out.intrinsic_, out.to_string());
   return out;
 }
 

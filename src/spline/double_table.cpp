@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Doubles of flat B-functions: on each panel the Taylor polynomials of B, B′, B″ and B‴ about its centre, a proved error each.
 //
-// Error of one value = Lagrange's remainder max|B^(k+16)| h^16/16! (enclosed over the panel) + what the coefficients lost when they
-// were rounded + Horner's rule, Σ (2j + 1) 2^-53 |c_j|. The argument (t − centre)/h of the polynomial is exact: h is a power
+// Error of one value = Lagrange's remainder max|B^(k+16)| h^16/16! (enclosed over the panel) + what the coefficients lost when
+// they were rounded + Horner's rule, Σ (2j + 1) 2^-53 |c_j|. The argument (t − centre)/h of the polynomial is exact: h is a power
 // of two, and t and the centre are nearer to each other than a factor of 2.
 #include <algorithm>
 #include <cmath>

@@ -131,6 +131,7 @@ std::vector<Interval> smooth_coefficients(const SmoothBFunction& b, const Interv
 }
 
 std::vector<Ball> smooth_coefficients(const SmoothBFunction& b, const Ball& t, int order) {
+  const BallPrecision precision(std::max(BallPrecision::current(), kIntervalBits));
   const Ball x = cut(t);
   const Interval all = cut(x.to_interval());
   if (is_narrow(b, all.inf(), all.sup())) return b.series(x, order);

@@ -10,15 +10,16 @@
 // A function that is exact (polynomials, rational) is evaluated in the field of t. The others are enclosed: the expo-rational
 // one by Taylor panels with proved remainders, its constant S by the same panels, never from a table of digits.
 //
-// REQUIRES 0 ≤ t ≤ 1. For double: rounding to nearest. Enclosures may stick out of [0, 1] by rounding; of exact functions the formula is continued there, of
-//          the others what sticks out is cut off. A RoundingGuard for Interval and TaylorModel.
+// REQUIRES 0 ≤ t ≤ 1. Enclosures may stick out of [0, 1] by rounding: exact functions and the trigonometric one are continued
+//          there by their formulas, of the others what sticks out is cut off. Interval and TaylorModel: a RoundingGuard;
+//          double: rounding to nearest.
 // ENSURES  (1) order_at_begin() and order_at_end() derivatives vanish at 0 and at 1 exactly, and for exact functions no more;
 //          polynomial(n) has B^(n+1)(0) = (2n+1)!/n! and B^(n+1)(1) = (−1)^n (2n+1)!/n!;
 //          (2) is_symmetric() ⇔ B(t) + B(1−t) = 1;  (3) B is strictly increasing, B(0) = 0, B(1) = 1;
 //          (4) numerator and denominator are B's Bernstein coefficients: B = Σ n_i B_i^m / Σ d_i B_i^m';
 //          (5) Interval, Ball and TaylorModel contain every derivative of B, also where the argument touches 0 or 1, where all
-//          bounds stay finite;  (6) enclosures are narrow: Ball of 128 bits at a point of the middle has 30 digits (an
-//          expo-rational one whose p is not an even integer: double_error's remark), models have remainders of order N + 1;
+//          bounds stay finite;  (6) enclosures are narrow: Ball of 128 bits at a point of the middle has 30 digits (fewer
+//          for an expo-rational one whose p is not an even integer, which is not analytic at λ), models have remainders of order N + 1;
 //          (7) double: |derivative k − exact| ≤ double_error(b, k), k ≤ 3, and values lie in [0, 1], are 0 and 1 at the ends,
 //          and are ordered wherever the exact ones differ by 2·double_error(b, 0) or more; no NaN;
 //          (8) parse(to_string()) is the same function;  (9) parameters that make no B-function are errors, with the place.
@@ -114,7 +115,8 @@ class BFunction {
   std::shared_ptr<const detail::SmoothBFunction> smooth_;
 };
 
-// B(t), B′(t), …, B^(order)(t). REQUIRES order ≥ 0.
+// B(t), B′(t), …, B^(order)(t). REQUIRES 0 ≤ order ≤ kMaxDerivative.
+inline constexpr int kMaxDerivative = 100;
 template <class R>
 std::vector<R> derivatives(const BFunction& b, const R& t, int order);
 
@@ -242,7 +244,7 @@ struct SmoothDerivatives<TaylorModel<N>> {
 
 template <class R>
 std::vector<R> derivatives(const BFunction& b, const R& t, int order) {
-  PATCHPROOF_REQUIRES(order >= 0, "derivatives: the order is not negative");
+  PATCHPROOF_REQUIRES(0 <= order && order <= kMaxDerivative, "derivatives: an order from 0 to kMaxDerivative");
   if (b.is_exact()) {
     std::vector<R> out = detail::exact_derivatives<R>(b.numerator(), b.denominator(), t, order);
     if constexpr (std::same_as<R, Interval>)
