@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
@@ -23,9 +24,9 @@ namespace {
 struct Options {
   std::vector<std::string> models;
   std::optional<std::string> require;
-  std::optional<double> gap, angle, curvature;
+  std::optional<double> gap, angle, curvature, match;
   std::string profile;
-  double match = 0, budget = 10, smooth_below = 5;
+  double budget = 10, smooth_below = 5;
   int jobs = 0;
   Decimals decimals = Decimals::exact;
   std::string json;
@@ -113,6 +114,24 @@ std::optional<CurveFile> only_curves(const Input& input) {
   return curves_of(file);
 }
 
+bool has_curves(const Input& input) {
+  if (const CadModel* cad = std::get_if<CadModel>(&input)) return !cad->curves.empty();
+  return std::visit([](const auto& m) { return !m.curves.empty(); }, std::get<ModelFile>(input).model);
+}
+
+// An option that none of the files gives a meaning would be ignored silently.
+std::optional<Error> without_meaning(const Options& options, const std::vector<Input>& files) {
+  const bool curves = std::any_of(files.begin(), files.end(), has_curves);
+  const bool all_cad =
+      std::all_of(files.begin(), files.end(), [](const Input& f) { return std::holds_alternative<CadModel>(f); });
+  if (options.curvature && !curves)
+    return Error{ErrorCode::usage, "--curvature", "is asked of joins of curves, and there are no curves",
+                 options.models.front()};
+  if (options.match && !curves && all_cad)
+    return Error{ErrorCode::usage, "--match", "which faces of a CAD model meet, the file says", options.models.front()};
+  return std::nullopt;
+}
+
 int list_profiles() {
   std::string text;
   for (const Profile& profile : all_profiles()) {
@@ -138,7 +157,7 @@ int run(const Options& options) {
   certify.given = certify.request;
   certify.profile = find_profile(options.profile);
   certify.curvature_tolerance = options.curvature;
-  certify.match_length = options.match;
+  certify.match_length = options.match.value_or(0);
   certify.smooth_below = options.smooth_below;
   certify.jobs = options.jobs;
   ProgressBar bar;
@@ -157,6 +176,7 @@ int run(const Options& options) {
     if (options.json != "-" && std::filesystem::equivalent(path, options.json, ignored))
       return report_error({ErrorCode::usage, "--json", "would overwrite the model", options.json});
   }
+  if (const auto error = without_meaning(options, files)) return report_error(*error);
   // Files that hold only curves are one model: ends meet across them.
   std::vector<CurveFile> curves;
   for (std::size_t i = 0; i < files.size();) {

@@ -85,12 +85,15 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
   report.notes = model.notes;
   begin_request(report, options);
   for (const CadFace& face : model.faces) report.patch_names.push_back(face.label);
-  report.cad = CadReport{options.smooth_below, {}, {}};
+  report.cad = CadReport{options.smooth_below, {}, {}, {}};
   for (const LeftOutFace& face : model.left_out) report.cad->left_out.push_back({face.label, face.reason});
   for (const CadEdge& edge : model.edges) {
     if (!is_join(edge.kind)) report.cad->no_joins.push_back({edge.label, to_string(edge.kind), edge.note});
     if (!edge.note.empty()) report.notes.push_back(named("edge", edge.label) + ": " + edge.note);
   }
+  for (std::size_t f = 0; f < model.faces.size(); ++f)
+    if (const Approximation& by = model.faces[f].approximation; by.length > 0)
+      report.cad->approximated.push_back({static_cast<int>(f), by});
   const std::vector<Pair> pairs = pairs_of(model);
   report.joins.resize(pairs.size());
   std::atomic<std::size_t> done{0};
@@ -115,8 +118,15 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
       out.b = reported_side(*b, edge.label);
       const auto deadline = seconds_from_now(options.request.seconds_per_join);  // of both together
       out.certificate = certify_trimmed(join, options.request);
-      out.edge_class = edge_class_of(join, out.certificate, options.smooth_below, deadline);
-      out.judgement = judge_edge(out.certificate, *out.edge_class, options.smooth_below, request_at(options, out.kind));
+      out.approximation = {a->approximation.length + b->approximation.length,
+                           a->approximation.degrees + b->approximation.degrees};
+      const Certificate wide = widened(out.certificate, out.approximation);
+      out.edge_class = edge_class_of(join, wide, options.smooth_below, deadline);
+      out.judgement = judge_edge(wide, *out.edge_class, options.smooth_below, request_at(options, out.kind));
+      if (out.judgement.outcome == Outcome::undecided && out.approximation.length > 0 &&
+          judge_edge(out.certificate, *out.edge_class, options.smooth_below, request_at(options, out.kind)).outcome !=
+              Outcome::undecided)
+        out.judgement.reason += "; without what the approximation of a surface may add it would be decided";
       const std::size_t now = ++done;
       if (options.progress) options.progress(now, pairs.size());
     });

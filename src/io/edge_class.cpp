@@ -2,6 +2,7 @@
 #include "edge_class.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace patchproof {
 
@@ -33,6 +34,20 @@ EdgeClass edge_class_of(const TrimmedJoin& join, const Certificate& certificate,
   const TrimmedBound largest = bound_trimmed(turned, budget).angle;
   if ((Interval(180) - Interval(largest.upper)).inf() > smooth_below) return EdgeClass::sharp;
   return (Interval(180) - Interval(largest.lower)).sup() <= smooth_below ? EdgeClass::mixed : EdgeClass::undecided;
+}
+
+Certificate widened(Certificate certificate, const Approximation& by) {
+  if (by.length == 0 && by.degrees == 0) return certificate;
+  const auto widen = [](EnclosedMaximum& bound, double by_what, double most) {
+    bound.lower = std::max(0.0, bound.lower - by_what);
+    bound.upper = std::min(std::max(bound.upper, most), bound.upper + by_what);
+  };
+  widen(certificate.gap, by.length, HUGE_VAL);
+  widen(certificate.angle, by.degrees, 180);
+  widen(certificate.plane_angle, by.degrees, 90);
+  for (ExactClass* c : {&certificate.c0, &certificate.c1, &certificate.c2, &certificate.g1})
+    *c = {Verdict::undecided, "a surface is approximated", std::nullopt};
+  return certificate;
 }
 
 Judgement judge_edge(const Certificate& certificate, EdgeClass edge_class, double smooth_below, Request request) {

@@ -15,6 +15,9 @@ EdgeClass edge_class_of(const TrimmedJoin& join, const Certificate& certificate,
 
 // Of a sharp edge no tangents are asked: C0 instead of C1 and G1, and no angle. Where it is not decided whether the edge is
 // sharp throughout, what would fail for its angle is undecided.
+// The bounds with what an approximation of the surfaces may add to them and take from them; classes that it leaves open.
+Certificate widened(Certificate certificate, const Approximation& by);
+
 Judgement judge_edge(const Certificate& certificate, EdgeClass edge_class, double smooth_below, Request request);
 
 }  // namespace patchproof

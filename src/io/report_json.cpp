@@ -29,6 +29,10 @@ Json side(const Report& r, const ReportedSide& s) {
           {"exact_range", {s.exact_begin, s.exact_end}}};
 }
 
+Json approximation_json(const Approximation& by) {
+  return {{"length", number(by.length)}, {"degrees", number(by.degrees)}};
+}
+
 Json checks_json(const Report& r, const ReportedJoin& j) {
   Json checks = Json::array();
   for (const Criterion& c : r.profile->criteria)
@@ -78,6 +82,7 @@ Json join_json(const Report& r, const ReportedJoin& j) {
            {"reasons", reasons},
            {"reason", j.judgement.reason}};
   if (j.edge_class) out["edge_class"] = to_string(*j.edge_class);
+  if (j.approximation.length > 0) out["approximation"] = approximation_json(j.approximation);
   if (r.profile) out["checks"] = checks_json(r, j);
   return out;
 }
@@ -161,6 +166,12 @@ std::string cad_text(const CadReport& cad) {
     out +=
         (i ? ",\n" : "\n") +
         text_of(Json{{"edge", cad.no_joins[i].label}, {"kind", cad.no_joins[i].kind}, {"note", cad.no_joins[i].note}});
+  out += "],\n";
+  if (cad.approximated.empty()) return out;
+  out += "\"approximated_faces\":[";
+  for (const ApproximatedFace& face : cad.approximated)
+    out += (&face == &cad.approximated.front() ? "\n" : ",\n") +
+           text_of(Json{{"patch", face.patch}, {"by", approximation_json(face.by)}});
   return out + "],\n";
 }
 

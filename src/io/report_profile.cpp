@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report_profile.h"
 
+#include "edge_class.h"
+
 #include <fmt/format.h>
 
 #include <ostream>
@@ -35,7 +37,7 @@ std::optional<Outcome> outcome_of(const Report& report, const ReportedJoin& join
   if (criterion.quantity == Quantity::angle && join.edge_class == EdgeClass::sharp) return std::nullopt;
   Request only;
   (criterion.quantity == Quantity::gap ? only.gap_tolerance : only.angle_tolerance) = tolerance;
-  return judge(join.certificate, only).outcome;
+  return judge(widened(join.certificate, join.approximation), only).outcome;
 }
 
 CriterionCount count_of(const Report& report, const Criterion& criterion) {

@@ -148,6 +148,18 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     if (r.cad) out << fmt::format("edges    {} (sharp: above {:g} degrees)\n", listed(edges), r.cad->smooth_below);
     out << fmt::format("gap      largest {}{}\n", bound_text(gap), r.units.empty() ? "" : " " + escaped(r.units));
     out << fmt::format("angle    largest {} degrees\n", bound_text(angle));
+    Approximation most;
+    int approximated = 0;
+    for (const ReportedJoin& j : r.joins) {
+      approximated += j.approximation.length > 0;
+      most.length = std::max(most.length, j.approximation.length);
+      most.degrees = std::max(most.degrees, j.approximation.degrees);
+    }
+    if (approximated > 0)
+      out << fmt::format(
+          "approximated surfaces at {} joins: not in the bounds, and by figures that are no bounds, add up to {:.3g}{} "
+          "and {:.3g} degrees\n",
+          approximated, most.length, r.units.empty() ? "" : " " + escaped(r.units), most.degrees);
   }
   const auto with = [&](auto is_meant) {
     return std::count_if(r.joins.begin(), r.joins.end(), [&](const ReportedJoin& j) {

@@ -78,6 +78,24 @@ class Cad(Command):
         # What was not looked at is no pass.
         self.expect(3, "certify", bad, "--keep-going", "--gap", "1")
 
+    def test_options_that_would_be_ignored(self):
+        for words in (["--curvature", "1"], ["--match", "0.1"]):
+            self.expect_refusal("certify", BLOCK, *words, names=[words[0], "usage"])
+        self.expect_refusal("certify", CUP, "--curvature", "1", names=["--curvature", "usage"])
+
+    def test_approximated_surfaces(self):
+        # One offset surface. What its approximation may add, a tolerance must allow for.
+        document = self.report(1, BLOCK, "--gap", "1e-5")
+        self.assertEqual(len(document["approximated_faces"]), 1)
+        joins = [join for join in document["joins"] if "approximation" in join]
+        self.assertEqual(len(joins), 4)
+        for join in joins:
+            self.assertGreater(join["approximation"]["length"], 1e-5)
+            if join["gap"]["upper"] < 1e-5:
+                self.assertEqual(join["verdict"], "undecided")
+                self.assertIn("approximation", join["reason"])
+        self.assertIn("approximated surfaces at 4 joins", self.expect(0, "certify", BLOCK, "--quiet").stdout.decode())
+
     def test_a_parameter_curve_that_the_conversion_would_mend(self):
         # Two planes; on one of them the file's parameter curve lies 0.3 beside the edge.
         path = DATA / "cad/shifted_parameter_curve.brep"

@@ -12,7 +12,8 @@
 //          changed, no edge merged;  (3) the denominators of all surfaces are certified to have no zero; a face that is not
 //          usable is refused, or left out, listed with the reason, and its edges are unusable;  (4) a face that stands in
 //          several places of an assembly is as many faces, each in its place;  (5) certify_cad's report does not depend on
-//          the number of jobs.
+//          the number of jobs;  (6) where a surface is approximated, that is said with its figures, and a tolerance is
+//          passed or failed only if it is with what they may add or take.
 // ERRORS   of read_cad_model: cannot_open, empty_input, syntax (Open CASCADE cannot read the file, or a part of a face; in BREP
 //          files with the line), bad_reference (BREP: an index of nothing), wrong_count (neither faces nor edges); of the first face
 //          that is not usable, whose label stands in `where`: unsupported, vanishing_weight, bad_number and those of knots.
@@ -33,6 +34,7 @@ struct CadFace {
   std::string label;  // "#123" in STEP files, "face 7"; with the name if there is one
   std::string kind;   // of the surface in the file: "plane", "cylinder", …
   BsplinePatch<Rational, 4> surface;
+  Approximation approximation = {};
 };
 
 enum class CadEdgeKind {
@@ -51,6 +53,7 @@ struct CadUse {
   int face;
   bool forward;                          // the face lies to the left of its parameter curve in the (u, v) plane
   BsplineCurve<Rational, 3> parameters;  // homogeneous (w·u, w·v, w), over the edge's range
+  Approximation approximation = {};      // along the edge
 };
 
 struct CadEdge {

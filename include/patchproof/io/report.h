@@ -44,6 +44,12 @@ enum class EdgeClass {
 inline constexpr double kSmoothDegrees = 0.1;
 const char* to_string(EdgeClass edge_class);
 
+// How far B-splines are from the surfaces that they stand for, by figures of Open CASCADE and by samples: no certified bounds.
+struct Approximation {
+  double length = 0;   // model units; 0: surfaces are taken exactly
+  double degrees = 0;  // between normals
+};
+
 struct ReportedJoin {
   int id = 0;  // 1-based
   ReportedSide a, b;
@@ -56,6 +62,7 @@ struct ReportedJoin {
   Certificate certificate;
   Judgement judgement;
   std::optional<EdgeClass> edge_class;  // of CAD models
+  Approximation approximation;          // of both surfaces together along the edge; the bounds do not contain it
 };
 
 // An edge of a CAD model that is no join.
@@ -66,12 +73,17 @@ struct ReportedEdge {
 struct ReportedFace {
   std::string label, reason;
 };
+struct ApproximatedFace {
+  int patch;
+  Approximation by;
+};
 
 // What only CAD models have.
 struct CadReport {
   double smooth_below = 0;             // degrees
   std::vector<ReportedFace> left_out;  // faces that are not usable
   std::vector<ReportedEdge> no_joins;
+  std::vector<ApproximatedFace> approximated = {};
 };
 
 struct ReportedFile {

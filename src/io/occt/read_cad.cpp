@@ -21,6 +21,7 @@
 
 #include "../report_text.h"
 #include "../source_file.h"
+#include "approximation.h"
 #include "converted.h"
 #include "load.h"
 #include "patchproof/io/cad.h"
@@ -131,6 +132,7 @@ class Reader {
  private:
   void add_face(int index, const std::string& kind, const std::string& label, const std::optional<Damage>& fault) {
     place_.push_back(-1);
+    figure_.push_back(0);
     as_read_.push_back(in_step_ && same_spline(before_.face(index), after_.face(index)));
     if (fault) {
       model_.left_out.push_back({label, fault->code, fault->reason});
@@ -142,9 +144,17 @@ class Reader {
       return;
     }
     place_.back() = static_cast<int>(model_.faces.size());
-    if (kind == "offset" || kind == "other")
-      model_.notes.push_back(named("face", label) + ": its " + kind + " surface is approximated by a B-spline");
-    model_.faces.push_back({label, kind, std::move(*surface)});
+    CadFace face{label, kind, std::move(*surface), {}};
+    if (kind == "offset" || kind == "other") {
+      const SurfaceApproximation by = approximation_of(before_.face(index), after_.face(index));
+      face.approximation = by.whole;
+      figure_.back() = by.figure;
+      model_.notes.push_back(
+          fmt::format("{}: its {} surface is approximated by a B-spline, about {:.2g} and {:.2g} degrees from it by "
+                      "samples and Open CASCADE's figure",
+                      named("face", label), kind, by.whole.length, by.whole.degrees));
+    }
+    model_.faces.push_back(std::move(face));
   }
 
   // A B-spline surface that the conversion left as it is.
@@ -200,7 +210,10 @@ class Reader {
           out.note += fmt::format(
               "{}its parameter curve on {} is {:.3g} away from its curve in space, tolerance {:.3g}",
               out.note.empty() ? "" : "; ", named("face", model_.faces[place_[index - 1]].label), away, out.tolerance);
-        out.uses.push_back({place_[index - 1], use.Orientation() == TopAbs_FORWARD, std::move(*parameters)});
+        CadUse made{place_[index - 1], use.Orientation() == TopAbs_FORWARD, std::move(*parameters), {}};
+        if (model_.faces[made.face].approximation.length > 0)
+          made.approximation = approximation_along(use, before_.face(index), natural, figure_[index - 1]);
+        out.uses.push_back(std::move(made));
         sources.push_back({use, natural});
       }
     }
@@ -258,6 +271,7 @@ class Reader {
   const Topology before_, after_;  // the conversion
   bool in_step_ = false;           // the same faces and edges in the same order
   std::vector<int> place_;         // of each face of the shape in model_.faces, −1 when left out
+  std::vector<double> figure_;     // Open CASCADE's, of its approximation of the face's surface; else 0
   std::vector<char> as_read_;      // faces that the conversion left as they are
 };
 
