@@ -275,9 +275,10 @@ Panels ExpoRational::build() const {
   std::reverse(out.all.begin(), out.all.end());
   if (!is_analytic_) {  // the gap, as a panel: integral = (y + 1) h [φ at its ends, 1]
     const double centre = start / 2 + start_right / 2, half = start_right / 2 - start / 2;
-    const double a = density(Ball(start - half), 0)[0].to_interval().inf();  // values are asked for |y| ≤ 1.5
-    const double b = density(Ball(start_right + half), 0)[0].to_interval().inf();
-    const Ball lower = ball_between(std::min(a, b), 1);
+    double missing = 0;  // most of 1 − φ; values are asked for |y| ≤ 1.5
+    for (const double s : {start - half, start_right + half})
+      missing = std::max(missing, (Ball(1) - density(Ball(s), 0)[0]).to_interval().sup());
+    const Ball lower = Ball(1) - ball_between(0, missing);
     Panel gap{start, start_right, centre, half, {}, Ball(0), {}, {}};
     gap.integral = {Ball(half) * lower, Ball(half) * lower};
     out.all.push_back(std::move(gap));

@@ -63,6 +63,15 @@ TEST(BFunctionBounds, Law6_AnyPrecision) {
   }
 }
 
+// What is left free beside λ costs digits when φ is not analytic there.
+TEST(BFunctionBounds, Law6_WithAKink) {
+  const auto tight = [](const char* text, int bits) {
+    return derivatives(make_b(text), Ball(Rational(2) / 5), 0)[0].is_tight(bits);
+  };
+  EXPECT_TRUE(tight("expo-rational(1,1,2,1/3)", 100));   // p = 3
+  EXPECT_TRUE(tight("expo-rational(1/2,1,1,1/3)", 53));  // p = 1
+}
+
 // ---- (5) every argument ---------------------------------------------------------------------------------------------
 
 TEST(BFunctionBounds, Law5_IntervalsContainTheirPoints) {
@@ -127,6 +136,26 @@ TEST(BFunctionBounds, Law5_Kinks) {
   EXPECT_TRUE(at[2].contains(Rational(0)));
   EXPECT_THROW(derivatives(b, 0.4, 4), contract_error);
   EXPECT_FALSE(make_b("expo-rational(2,1,1,1/2)").smoothness().has_value());
+}
+
+// The corners of what is allowed: slow tails at one end, steep middles, λ beside an end.
+TEST(BFunctionBounds, Law5_ExtremeParameters) {
+  const RoundingGuard guard;
+  for (const char* text : {"expo-rational(8,16,1,1/16)", "expo-rational(1,1/16,1,15/16)",
+                           "expo-rational(1/2,1/16,16,15/16)", "expo-rational(7/3,1,5/4,2/7)"}) {
+    const BFunction b = make_b(text);
+    const auto everywhere = derivatives(b, Interval(0, 1), smooth_up_to(b, 3));
+    Ball last(0);
+    for (int i = 1; i < 16; ++i) {
+      const auto at = derivatives(b, Ball(Rational(i) / 16), 1);
+      EXPECT_NE((at[0] - last).sign(), Sign::negative) << text;
+      EXPECT_LE(width(at[0].to_interval()), 1e-12) << text;
+      EXPECT_TRUE(meet(everywhere[1], at[1].to_interval())) << text;
+      last = at[0];
+    }
+    EXPECT_TRUE(everywhere[0].inf() == 0 && everywhere[0].sup() == 1);
+    for (const Interval& x : everywhere) EXPECT_TRUE(std::isfinite(width(x))) << text;
+  }
 }
 
 // ---- models ---------------------------------------------------------------------------------------------------------

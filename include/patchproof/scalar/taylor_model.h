@@ -10,7 +10,8 @@
 // REQUIRES a RoundingGuard (interval.h).  sqrt: an argument that is not negative throughout.
 // ENSURES  (1) every operation's result contains the exact function for all functions in its operands: + − × ÷, sqrt, exp,
 //          sin, cos;  (2) value(s), range() and bernstein_range() contain f(s);  (3) where the operands are smooth the
-//          remainder of a composition over an interval of half-width r is O(r^(N+1));  (4) a quotient by a model whose range contains 0 is "anything", never NaN;
+//          remainder of a composition over an interval of half-width r is O(r^(N+1));  (4) a quotient by a model
+//          whose range contains 0 is "anything", never NaN;
 //          (5) sign() answers only when the whole range has one sign, or f is exactly 0;
 //          (6) composed(…) contains F(f(s)) for every F with those Taylor coefficients.
 // COST     + − : N intervals; × : N²; ÷, sqrt, exp, sin, cos: N products.

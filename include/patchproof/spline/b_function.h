@@ -19,7 +19,8 @@
 //          (4) numerator and denominator are B's Bernstein coefficients: B = Σ n_i B_i^m / Σ d_i B_i^m';
 //          (5) Interval, Ball and TaylorModel contain every derivative of B, also where the argument touches 0 or 1, where all
 //          bounds stay finite;  (6) enclosures are narrow: Ball of 128 bits at a point of the middle has 30 digits (fewer
-//          for an expo-rational one whose p is not an even integer, which is not analytic at λ), models have remainders of order N + 1;
+//          for an expo-rational one whose p is not an even integer, which is not analytic at λ: 16 for p = 1); models have
+//          remainders of order N + 1;
 //          (7) double: |derivative k − exact| ≤ double_error(b, k), k ≤ 3, and values lie in [0, 1], are 0 and 1 at the ends,
 //          and are ordered wherever the exact ones differ by 2·double_error(b, 0) or more; no NaN;
 //          (8) parse(to_string()) is the same function;  (9) parameters that make no B-function are errors, with the place.
