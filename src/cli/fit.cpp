@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/samples.h"
 #include "patchproof/io/write.h"
+#include "patchproof/patch/fit_patch.h"
 #include "patchproof/spline/fit_double.h"
 #include "patchproof/spline/least_squares.h"
 #include "patchproof/spline/sample_parameters.h"
@@ -21,7 +22,7 @@ namespace {
 struct Options {
   std::string from, to;
   int degree = 3;
-  std::optional<int> controls;
+  std::optional<int> controls, grid, degree_v, controls_v;
   std::string knots, knot_rule = "auto", parameters = "uniform";
   bool weights = false, exact = false, in_doubles = false, quiet = false;
   Decimals decimals = Decimals::exact;
@@ -29,44 +30,6 @@ struct Options {
 
 Error usage(std::string where, std::string message, std::string values) {
   return {ErrorCode::usage, std::move(where), std::move(message), std::move(values)};
-}
-
-// Points in three coordinates, those not given 0. A single number is a value: it stands in y, for a graph over the parameter.
-template <ExactField T>
-struct Samples {
-  int dimension = 0;
-  CurveSamples<T, 3> data;
-};
-
-template <ExactField T>
-Result<Samples<T>> read_samples(const NumberText& text, const Options& o, int& root) {
-  const std::size_t before = o.parameters == "given" ? 1 : 0, behind = o.weights ? 1 : 0;
-  if (text.lines.empty()) return Error{ErrorCode::empty_input, text.file.path, "holds no samples", ""};
-  const std::size_t words = text.lines.front().size();
-  Samples<T> out;
-  out.dimension = static_cast<int>(words) - static_cast<int>(before + behind);
-  if (out.dimension < 1 || out.dimension > 3)
-    return text.file.error(ErrorCode::wrong_count, text.lines.front().front(),
-                           fmt::format("a sample has one, two or three coordinates{}{}",
-                                       before ? " behind its parameter" : "", behind ? " before its weight" : ""),
-                           std::to_string(words) + " numbers");
-  for (const auto& line : text.lines) {
-    if (line.size() != words)
-      return text.file.error(ErrorCode::wrong_count, line.front(),
-                             fmt::format("{} numbers as on the lines before", words), std::to_string(line.size()));
-    std::vector<T> numbers;
-    for (const std::string_view word : line) {
-      Result<T> x = read_number<T>(text, word, o.decimals, root);
-      if (!x) return x.error();
-      numbers.push_back(std::move(*x));
-    }
-    if (before) out.data.parameters.push_back(numbers.front());
-    if (behind) out.data.weights.push_back(numbers.back());
-    Vec<T, 3> point;
-    for (int c = 0; c < out.dimension; ++c) point[out.dimension == 1 ? 1 : c] = numbers[before + c];
-    out.data.points.push_back(std::move(point));
-  }
-  return out;
 }
 
 template <ExactField T>
@@ -181,11 +144,95 @@ Error at_samples(const NumberText& text, const Error& error) {
           error.values};
 }
 
+// Readers refuse numbers of more than kMaxDigits characters.
+template <ExactField T>
+std::optional<Error> too_long(const std::vector<Vec<T, 3>>& points, const NumberText& text) {
+  std::size_t longest = 0;
+  for (const Vec<T, 3>& p : points)
+    for (const T& x : p.c) longest = std::max(longest, to_text(x).size());
+  if (longest <= static_cast<std::size_t>(kMaxDigits)) return std::nullopt;
+  return Error{
+      ErrorCode::unsupported, text.file.path,
+      fmt::format("the exact control points have numbers of more than {} digits; --double rounds those of a curve",
+                  kMaxDigits),
+      std::to_string(longest) + " digits"};
+}
+
+std::string distance_text(const Distances& d) {
+  if (d.largest == 0) return "goes through all samples\n";
+  // Six digits, not below.
+  return fmt::format(
+      "largest distance at a sample: at most {:.6g} (sample {}), root of the mean square: at most {:.6g}\n",
+      d.largest * (1 + 0x1p-17), d.at, d.mean * (1 + 0x1p-17));
+}
+
+int finish(const std::string& model, const std::string& summary, const Options& o) {
+  if (const int failed = write_output(o.to, model)) return failed;
+  if (o.to != "-") return write_output("-", summary);
+  std::fputs(summary.c_str(), stderr);  // the model is on standard output
+  return 0;
+}
+
+// Rows of samples: a patch over equal steps in both directions.
+template <ExactField T>
+int fit_grid(const NumberText& text, const CurveSamples<T, 3>& data, const Options& o) {
+  const std::size_t rows = static_cast<std::size_t>(*o.grid), columns = data.points.size() / rows;
+  if (columns * rows != data.points.size() || columns < 2)
+    return report_error({ErrorCode::wrong_count, text.file.path,
+                         fmt::format("{} rows of samples, all of one length, of two or more", rows),
+                         std::to_string(data.points.size()) + " samples"});
+  GridSamples<T, 3> grid{{}, {}, data.points};
+  std::optional<KnotVector<T>> knots[2];
+  for (const bool v : {false, true}) {
+    const std::size_t samples = v ? columns : rows;
+    const int degree = v ? o.degree_v.value_or(o.degree) : o.degree;
+    const int count = (v ? o.controls_v : o.controls).value_or(static_cast<int>(samples));
+    const std::string where = text.file.path + (v ? ", along v" : ", along u");
+    if (static_cast<std::size_t>(count) > samples || count <= degree)
+      return report_error(
+          {ErrorCode::wrong_count, where,
+           fmt::format("{} samples and degree {} allow {} to {} control points", samples, degree, degree + 1, samples),
+           std::to_string(count)});
+    std::vector<T>& at = v ? grid.v : grid.u;
+    at = uniform_parameters<T>(samples, T(0), T(count - degree)).value();
+    const bool uniform =
+        o.knot_rule == "uniform" || (o.knot_rule == "auto" && static_cast<std::size_t>(count) < samples);
+    knots[v] = (uniform ? uniform_clamped_knots<T>(degree, count) : averaged_knots<T>(degree, count, at)).value();
+  }
+  const Result<BsplinePatch<T, 3>> patch = fit_patch(*knots[0], *knots[1], grid);
+  if (!patch) return report_error(at_samples(text, patch.error()));
+  if (const auto error = too_long(patch->net(), text)) return report_error(*error);
+  T largest(0), sum(0);
+  Distances d;
+  for (std::size_t a = 0; a < rows; ++a)
+    for (std::size_t b = 0; b < columns; ++b) {
+      const Vec<T, 3> gap = evaluate(*patch, grid.u[a], grid.v[b]) - data.points[a * columns + b];
+      const T square = dot(gap, gap);
+      sum += square;
+      if (largest < square) largest = square, d.at = a * columns + b;
+    }
+  d.largest = root_above(largest);
+  d.mean = root_above(T(sum / T(static_cast<int>(data.points.size()))));
+  Model<T> model;
+  std::vector<Vec<T, 4>> net;
+  for (const Vec<T, 3>& p : patch->net()) net.push_back({{p[0], p[1], p[2], T(1)}});
+  model.patches.push_back({"fit", BsplinePatch<T, 4>(*knots[0], *knots[1], std::move(net)), false});
+  std::string summary =
+      fmt::format("{}: {} x {} samples, {} x {} control points, degrees {} and {}\n", o.from, rows, columns,
+                  knots[0]->control_count(), knots[1]->control_count(), knots[0]->degree(), knots[1]->degree());
+  if (!o.quiet) summary += "exact least-squares patch\n" + distance_text(d);
+  return finish(write_model_json(model), summary, o);
+}
+
 template <ExactField T>
 int fit(const NumberText& text, const std::optional<NumberText>& knot_text, const Options& o) {
   int root = 1;
-  Result<Samples<T>> samples = read_samples<T>(text, o, root);
+  Result<Samples<T>> samples = read_samples<T>(text, {o.parameters == "given", o.weights}, o.decimals, root);
   if (!samples) return report_error(samples.error());
+  if (o.grid && samples->dimension != 3)
+    return report_error({ErrorCode::wrong_count, text.file.path, "the samples of a patch have three coordinates",
+                         std::to_string(samples->dimension)});
+  if (o.grid) return fit_grid(text, samples->data, o);
   if (samples->dimension == 1 && o.degree == 0)
     return report_error(usage("--degree", "the graph of values over their parameters has degree 1 or more", "0"));
   std::optional<KnotVector<T>> given;
@@ -218,16 +265,8 @@ int fit(const NumberText& text, const std::optional<NumberText>& knot_text, cons
   } else {
     Result<BsplineCurve<T, 3>> found = fit_curve(*knots, data);
     if (!found) return report_error(at_samples(text, found.error()));
+    if (const auto error = too_long(found->points(), text)) return report_error(*error);
     curve.emplace(std::move(*found));
-    std::size_t longest = 0;
-    for (const Vec<T, 3>& p : curve->points())
-      for (const T& x : p.c) longest = std::max(longest, to_text(x).size());
-    if (longest > static_cast<std::size_t>(kMaxDigits))
-      return report_error(
-          {ErrorCode::unsupported, text.file.path,
-           fmt::format("the exact control points have numbers of more than {} digits; --double rounds them",
-                       kMaxDigits),
-           std::to_string(longest) + " digits"});
     how = "exact least-squares curve\n";
   }
   const Distances d = o.in_doubles ? distances<Interval>(*curve, data) : distances<T>(*curve, data);
@@ -238,21 +277,10 @@ int fit(const NumberText& text, const std::optional<NumberText>& knot_text, cons
   for (const Vec<T, 3>& p : drawn.points()) homogeneous.push_back({{p[0], p[1], p[2], T(1)}});
   model.curves.push_back(
       {"fit", BsplineCurve<T, 4>(*knots, std::move(homogeneous)), false, samples->dimension == 3 ? 3 : 2});
-  if (const int failed = write_output(o.to, write_model_json(model))) return failed;
   std::string summary = fmt::format("{}: {} samples, {} control points, degree {}, {} pieces\n", o.from,
                                     data.points.size(), knots->control_count(), o.degree, knots->breaks().size() - 1);
-  if (!o.quiet) {
-    summary += how;
-    summary += d.largest == 0 ? "goes through all samples\n"
-                              : fmt::format(
-                                    "largest distance at a sample: at most {:.6g} (sample {}), root of the mean "
-                                    "square: at most {:.6g}\n",
-                                    d.largest * (1 + 0x1p-17), d.at, d.mean * (1 + 0x1p-17));
-  }
-  if (o.to == "-")  // where the model is
-    std::fputs(summary.c_str(), stderr);
-  else if (const int failed = write_output("-", summary))
-    return failed;
+  if (!o.quiet) summary += how + distance_text(d);
+  if (const int failed = finish(write_model_json(model), summary, o)) return failed;
   return certified ? kProven : kUndecided;
 }
 
@@ -262,6 +290,10 @@ int run(const Options& o) {
     return report_error(usage("fit", "OUT ends in .json; convert makes other formats of it", o.to));
   if (!o.knots.empty() && o.knot_rule != "auto")
     return report_error(usage("--knot-rule", "the knots are given", o.knot_rule));
+  if (o.grid && (!o.knots.empty() || o.parameters != "uniform" || o.weights || o.in_doubles))
+    return report_error(usage("--grid", "goes with degrees, numbers of control points and --knot-rule only", ""));
+  if (!o.grid && (o.controls_v || o.degree_v))
+    return report_error(usage(o.controls_v ? "--controls-v" : "--degree-v", "goes with --grid", ""));
   std::error_code ignored;
   if (o.to != "-" && std::filesystem::equivalent(o.from, o.to, ignored))
     return report_error(usage("fit", "would overwrite its input", o.to));
@@ -287,7 +319,8 @@ int run(const Options& o) {
 
 void add_fit(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("fit", "the B-spline curve nearest to given samples, or through them");
+  CLI::App* command =
+      app.add_subcommand("fit", "the B-spline curve or patch nearest to given samples, or through them");
   command->add_option("samples", o->from, "text: the coordinates of one sample on each line (docs/formats.md)")
       ->required()
       ->type_name("SAMPLES");
@@ -298,6 +331,17 @@ void add_fit(CLI::App& app, int& exit_code) {
   command->add_option("--controls", o->controls, "number of control points [one for each sample: interpolation]")
       ->check(CLI::Range(1, 1 << 28))
       ->option_text("N");
+  command
+      ->add_option("--grid", o->grid,
+                   "fit a patch: so many rows of samples, one row after the other; u runs over the rows")
+      ->check(CLI::Range(2, 1 << 28))
+      ->option_text("ROWS");
+  command->add_option("--degree-v", o->degree_v, "of a patch, along its rows [as --degree]")
+      ->check(CLI::Range(0, 1000))
+      ->option_text("Q");
+  command->add_option("--controls-v", o->controls_v, "of a patch, along its rows [one for each sample]")
+      ->check(CLI::Range(1, 1 << 28))
+      ->option_text("M");
   command->add_option("--knots", o->knots, "the knots: a list '0,0,0,0,1,2,2,2,2', or a file of them")
       ->option_text("LIST|FILE");
   command

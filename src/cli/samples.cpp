@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/samples.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace patchproof::cli {
@@ -56,5 +58,38 @@ Result<T> read_number(const NumberText& text, std::string_view word, Decimals de
 }
 template Result<Rational> read_number<Rational>(const NumberText&, std::string_view, Decimals, int&);
 template Result<Quadratic> read_number<Quadratic>(const NumberText&, std::string_view, Decimals, int&);
+
+template <ExactField T>
+Result<Samples<T>> read_samples(const NumberText& text, const SampleForm& form, Decimals decimals, int& root) {
+  const std::size_t before = form.parameter_first ? 1 : 0, behind = form.weight_last ? 1 : 0;
+  if (text.lines.empty()) return Error{ErrorCode::empty_input, text.file.path, "holds no samples", ""};
+  const std::size_t words = text.lines.front().size();
+  Samples<T> out;
+  out.dimension = static_cast<int>(words) - static_cast<int>(before + behind);
+  if (out.dimension < 1 || out.dimension > 3)
+    return text.file.error(ErrorCode::wrong_count, text.lines.front().front(),
+                           fmt::format("a sample has one, two or three coordinates{}{}",
+                                       before ? " behind its parameter" : "", behind ? " before its weight" : ""),
+                           std::to_string(words) + " numbers");
+  for (const auto& line : text.lines) {
+    if (line.size() != words)
+      return text.file.error(ErrorCode::wrong_count, line.front(),
+                             fmt::format("{} numbers as on the lines before", words), std::to_string(line.size()));
+    std::vector<T> numbers;
+    for (const std::string_view word : line) {
+      Result<T> x = read_number<T>(text, word, decimals, root);
+      if (!x) return x.error();
+      numbers.push_back(std::move(*x));
+    }
+    if (before) out.data.parameters.push_back(numbers.front());
+    if (behind) out.data.weights.push_back(numbers.back());
+    Vec<T, 3> point;
+    for (int c = 0; c < out.dimension; ++c) point[out.dimension == 1 ? 1 : c] = numbers[before + c];
+    out.data.points.push_back(std::move(point));
+  }
+  return out;
+}
+template Result<Samples<Rational>> read_samples<Rational>(const NumberText&, const SampleForm&, Decimals, int&);
+template Result<Samples<Quadratic>> read_samples<Quadratic>(const NumberText&, const SampleForm&, Decimals, int&);
 
 }  // namespace patchproof::cli

@@ -10,6 +10,7 @@
 #include "io/source_file.h"
 #include "patchproof/error.h"
 #include "patchproof/scalar/parse_scalar.h"
+#include "patchproof/spline/least_squares.h"
 
 namespace patchproof::cli {
 
@@ -29,5 +30,20 @@ bool mentions_root(const NumberText& text);
 // ERRORS bad_number, with the line.  mixed_roots: different roots in `root` and here; root is 1 as long as there is none.
 template <ExactField T>
 Result<T> read_number(const NumberText& text, std::string_view word, Decimals decimals, int& root);
+
+// Points in three coordinates, those not given 0. A single number is a value: it stands in y, for a graph over the parameter.
+template <ExactField T>
+struct Samples {
+  int dimension = 0;
+  CurveSamples<T, 3> data;
+};
+// What a line holds beside the coordinates.
+struct SampleForm {
+  bool parameter_first, weight_last;
+};
+
+// ERRORS empty_input; wrong_count: not one to three coordinates, or another number than on the first line; as read_number.
+template <ExactField T>
+Result<Samples<T>> read_samples(const NumberText& text, const SampleForm& form, Decimals decimals, int& root);
 
 }  // namespace patchproof::cli

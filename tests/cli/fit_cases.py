@@ -99,6 +99,31 @@ class Fit(Command):
         point = self.write("point.txt", "1 1\n" * 5)
         self.expect_refusal("fit", point, "-", "--parameters", "chord", names=["one point", "singular_fit"])
 
+    def test_a_grid_gives_a_patch(self):
+        # z = x y^2 on 4 x 5 samples, rows along x
+        rows = [(x, Fraction(y, 2), x * Fraction(y, 2) ** 2) for x in range(4) for y in range(5)]
+        samples = self.write("grid.txt", "".join(" ".join(map(str, row)) + "\n" for row in rows))
+        out = self.dir / "patch.json"
+        for words in (("--controls", 2, "--degree", 1, "--controls-v", 3, "--degree-v", 2), (),
+                      ("--controls-v", 4, "--degree", 2, "--knot-rule", "averaged")):
+            text = self.expect(0, "fit", samples, out, "--grid", 4, *words).stdout.decode()
+            self.assertIn("4 x 5 samples", text)
+            self.assertIn("goes through all samples", text)
+        self.expect(0, "fit", samples, out, "--grid", 4, "--controls", 2, "--degree", 1, "--controls-v", 3, "--degree-v", 2)
+        self.assertEqual(self.at(out, "1/3,1/4"), [1, Fraction(1, 2), Fraction(1, 4)])
+        self.assertIn("at most", self.expect(0, "fit", samples, out, "--grid", 4, "--controls", 2, "--degree", 1,
+                                             "--controls-v", 2).stdout.decode())
+        model = self.expect(0, "fit", samples, "-", "--grid", 4, "--degree", 1, "--quiet")
+        self.assertEqual(len(json.loads(model.stdout)["patches"]), 1)
+        for words, names in ((("--grid", 3), ["3 rows", "20 samples", "wrong_count"]),
+                             (("--grid", 20), ["wrong_count"]),
+                             (("--grid", 4, "--controls", 5), ["along u", "wrong_count"]),
+                             (("--grid", 4, "--controls-v", 3), ["along v", "degree 3", "wrong_count"]),
+                             (("--grid", 4, "--double"), ["--grid", "usage"]),
+                             (("--controls-v", 4), ["--controls-v", "usage"])):
+            self.expect_refusal("fit", samples, "-", *words, names=names)
+        self.expect_refusal("fit", self.LOOP, "-", "--grid", 41, names=["three coordinates", "wrong_count"])
+
     def test_bad_input_is_refused_and_leaves_nothing(self):
         out = self.dir / "out.json"
         for name, text, words, names in (
@@ -131,6 +156,6 @@ class Fit(Command):
         self.assertFalse(out.exists())
 
     def test_numbers_too_long_for_files_are_refused(self):
-        samples = self.write("many.txt", "".join(f"{a * a % 97}.{a * 7919 % 1000003} {a}\n" for a in range(300)))
-        self.expect_refusal("fit", samples, "-", "--controls", 150, "--parameters", "chord", names=["--double", "digits"])
-        self.assertIn("proven", self.fitted(samples, "--controls", 150, "--parameters", "chord", "--double")[1])
+        samples = self.write("many.txt", "".join(f"{a * a % 97}.{a * 7919 % 1000003} {a}\n" for a in range(100)))
+        self.expect_refusal("fit", samples, "-", "--controls", 60, "--parameters", "chord", names=["--double", "digits"])
+        self.assertIn("proven", self.fitted(samples, "--controls", 60, "--parameters", "chord", "--double")[1])
