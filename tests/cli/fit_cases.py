@@ -141,7 +141,8 @@ class Fit(Command):
                  ["sample 1", "[0, 1]", "outside_domain"]),
                 ("falling", "0 1\n3 0\n", ("--knots", "0,1,0,1", "--degree", 1), ["--knots", "decreasing_knots"]),
                 ("knot", "0 1\n3 0\n", ("--knots", "0,0,x,1", "--degree", 1), ["--knots", "bad_number"]),
-                ("knots", "0 1\n3 0\n", ("--knots", "0,0,1,1", "--degree", 1, "--controls", 3), ["--knots", "5 knots", "wrong_count"]),
+                ("knots", "0 1\n3 0\n", ("--knots", "0,0,1,1", "--degree", 1, "--controls", 3),
+                 ["--knots", "5 knots", "wrong_count"]),
                 ("step", "1\n3\n", ("--degree", 0), ["--degree", "usage"])):
             path = self.write(name + ".txt", text)
             self.expect_refusal("fit", path, out, *words, names=names)
