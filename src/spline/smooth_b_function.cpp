@@ -12,10 +12,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kIntervalBits = 96;  // of the Balls behind Interval and double
 constexpr double kBesideEnds = 1.0 / 64;
 
-// t cut to [0, 1]: a square root cuts off what is negative.
+// t cut to [0, 1], beyond which B goes on as 0 and 1, with all derivatives: a square root cuts off what is negative.
 Ball cut(const Ball& t) {
   const Interval all = t.to_interval();
-  PATCHPROOF_REQUIRES(all.sup() >= 0 && all.inf() <= 1, "derivatives: t lies outside [0, 1]");
+  if (all.sup() < 0) return Ball(0);
+  if (all.inf() > 1) return Ball(1);
   Ball x = t;
   if (all.inf() < 0) {
     const Ball root = sqrt(x);
@@ -28,8 +29,7 @@ Ball cut(const Ball& t) {
   return x;
 }
 Interval cut(const Interval& t) {
-  PATCHPROOF_REQUIRES(t.sup() >= 0 && t.inf() <= 1, "derivatives: t lies outside [0, 1]");
-  return Interval(std::max(t.inf(), 0.0), std::min(t.sup(), 1.0));
+  return Interval(std::clamp(t.inf(), 0.0, 1.0), std::clamp(t.sup(), 0.0, 1.0));
 }
 
 bool meets_kink(const SmoothBFunction& b, double low, double high) {

@@ -10,9 +10,9 @@
 // A function that is exact (polynomials, rational) is evaluated in the field of t. The others are enclosed: the expo-rational
 // one by Taylor panels with proved remainders, its constant S by the same panels, never from a table of digits.
 //
-// REQUIRES 0 ≤ t ≤ 1. Enclosures may stick out of [0, 1] by rounding: exact functions and the trigonometric one are continued
-//          there by their formulas, of the others what sticks out is cut off. Interval and TaylorModel: a RoundingGuard;
-//          double: rounding to nearest.
+// REQUIRES 0 ≤ t ≤ 1. Enclosures may stick out of [0, 1], or lie beyond: exact functions and the trigonometric one go on by their
+//          formula there; logistic and expo-rational ones, all of whose derivatives vanish at the ends, as 0 and 1. A
+//          RoundingGuard for Interval and TaylorModel.
 // ENSURES  (1) order_at_begin() and order_at_end() derivatives vanish at 0 and at 1 exactly, and for exact functions no more;
 //          polynomial(n) has B^(n+1)(0) = (2n+1)!/n! and B^(n+1)(1) = (−1)^n (2n+1)!/n!;
 //          (2) is_symmetric() ⇔ B(t) + B(1−t) = 1;  (3) B is strictly increasing, B(0) = 0, B(1) = 1;
