@@ -20,11 +20,11 @@
 // SCALARS   T: OrderedField, K: OrderedField; values in R: Field, where B and the local curves have values in R
 //           (b_function.h, local_curve.h).
 // ERRORS    wrong_count: local curves that do not fit the knots;  outside_domain: a local curve that ends inside its support;
-//           not_closed: knots of a closed curve that do not repeat;  bad_window: see blend;  bad_degree, decreasing_knots,
-//           empty_domain: as KnotVector.
+//           not_closed: knots of a closed curve that do not repeat;  bad_window: see blend;  bad_number: a break that is not
+//           finite;  bad_degree, decreasing_knots, empty_domain: as KnotVector.
 // SOURCE    L. T. Dechevsky, A. Lakså, B. Bang, Expo-rational B-splines, Int. J. Pure Appl. Math. 27 (2006) 319–362.
 // NEIGHBOURS gerbs_spline.h (as an ordinary spline; smoothness), patch/gerbs_surface.h.
-// TEST      tests/spline/gerbs_curve_test.cpp checks (1)–(6).
+// TEST      tests/spline/gerbs_curve_test.cpp checks (1)–(4), gerbs_curve_closed_test.cpp (5), (6) and the errors.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,8 @@
 namespace patchproof {
 
 // The knots over these breaks t_1 … t_N: the ends twice, or, closed, continued by a period.
-// ERRORS decreasing_knots, empty_domain, wrong_count (fewer than two), not_closed (a closed curve of which an end stands twice).
+// ERRORS bad_number, decreasing_knots, empty_domain, wrong_count (fewer than two), not_closed (a closed curve of which an end
+// stands twice).
 template <OrderedField K>
 Result<KnotVector<K>> gerbs_knots(std::vector<K> breaks, bool closed);
 
@@ -86,6 +87,11 @@ std::vector<Vec<R, M - 1>> derivatives_at(const GerbsCurve<T, M, K>& curve, cons
 // ---------------------------------------------------------------------------------------------------------------------
 
 namespace detail {
+
+template <OrderedField K>
+bool is_finite(const K& x) {
+  return x - x == K(0);
+}
 
 // t_0 and t_{N+1} of a closed curve.
 template <OrderedField K>
@@ -148,6 +154,10 @@ template <OrderedField K>
 Result<KnotVector<K>> gerbs_knots(std::vector<K> breaks, bool closed) {
   if (breaks.size() < 2)
     return Error{ErrorCode::wrong_count, "", "a GERBS needs at least two knots", std::to_string(breaks.size())};
+  for (std::size_t i = 0; i < breaks.size(); ++i)
+    if (!detail::is_finite(breaks[i]))
+      return Error{ErrorCode::bad_number, "", "a knot of a GERBS is not a finite number",
+                   "number " + std::to_string(i)};
   const auto [first, last] = closed ? detail::closed_ends(breaks) : std::pair(breaks.front(), breaks.back());
   breaks.insert(breaks.begin(), first);
   breaks.push_back(last);
@@ -179,7 +189,8 @@ Result<GerbsCurve<T, M, K>> GerbsCurve<T, M, K>::blend(BFunction b, const Bsplin
           length = second.knots().domain_end() - second.knots().domain_begin();
   if (!(K(0) < overlap) || meet - begin < overlap || length < overlap)
     return Error{ErrorCode::bad_window, "", "two curves are blended over a part of both, which is not empty",
-                 to_text(overlap) + " of " + to_text(K(meet - begin)) + " and " + to_text(length)};
+                 (detail::is_finite(overlap) ? to_text(overlap) : "no number") + " of " + to_text(K(meet - begin)) +
+                     " and " + to_text(length)};
   const K from = meet - overlap, end = from + length;
   const Local a(first), z = Local(second).shifted(K(from - second.knots().domain_begin()));
   std::vector<K> breaks;
