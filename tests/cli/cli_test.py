@@ -18,6 +18,7 @@ from command import CUP, DATA, EXAMPLES, KINK, PROGRAM, SPHERE, Command, run
 from convert_cases import Convert, Profiles
 from curve_cases import Curves
 from fill_cases import Fill
+from fit_cases import Fit
 
 
 class Certify(Command):
