@@ -45,7 +45,10 @@ struct Series {
     for (int k = 0; k <= 2 * kTerms; ++k) {
       if (k > 0) term = term * Ball::pi() / Ball(k);
       const double value = middle(k / 2 % 2 == 0 ? term : -term);
-      (k % 2 == 0 ? c : s)[k / 2] = value;
+      if (k % 2 == 0)
+        c[k / 2] = value;
+      else
+        s[k / 2] = value;
     }
   }
   static double middle(const Ball& x) {
