@@ -239,6 +239,70 @@ TEST(Piecewise, Law7_JoinedIsTheSplineWithThesePieces) {
   EXPECT_THROW((void)joined(torn, 5), contract_error);
 }
 
+// Pieces whose first derivatives up to order[i] agree at break i + 1, and not the next.
+Curve2 pieces_of_order(RandomRationals& random, int degree, const std::vector<Rational>& at,
+                       const std::vector<int>& orders) {
+  Curve2 out = random_pieces<2>(random, degree, at);
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const Rational begin = at[i + 1], length = at[i + 2] - at[i + 1];
+    // The left polynomial continued, plus a multiple of (t − begin)^(order + 1).
+    std::vector<Vec<Rational, 2>> points = out[i].points;
+    const Rational left = at[i + 1] - at[i];
+    for (const std::size_t c : {0u, 1u}) {
+      std::vector<Rational> b;
+      for (const auto& p : out[i].points) b.push_back(p[c]);
+      Polynomial next = from_bernstein(b).compose(Polynomial({Rational(1), Rational(length / left)}));
+      if (orders[i] < degree) {
+        std::vector<Rational> term(orders[i] + 2, Rational(0));
+        term.back() = c == 0 ? Rational(2) : Rational(0);  // one coordinate is enough to tear them
+        next = next + Polynomial(term);
+      }
+      next.c.resize(degree + 1, Rational(0));
+      // b_l = Σ_j C(l,j)/C(degree,j) a_j
+      for (int l = 0; l <= degree; ++l) {
+        Rational sum(0), ratio(1);
+        for (int j = 0; j <= l; ++j) {
+          sum += ratio * next.c[j];
+          ratio = ratio * Rational(l - j) / Rational(degree - j == 0 ? 1 : degree - j);
+        }
+        points[l][c] = sum;
+      }
+    }
+    out[i + 1].points = points;
+  }
+  return out;
+}
+
+TEST(Piecewise, Law8_JoinedSmoothlyHasTheKnotsThatAreNeeded) {
+  RandomRationals random;
+  for (int degree = 0; degree <= 5; ++degree)
+    for (int first = -1; first <= degree; ++first)
+      for (int second = -1; second <= degree; ++second) {
+        const Curve2 f = pieces_of_order(random, degree, kBreaks, {first, second});
+        EXPECT_EQ(agreement(f, 0), first) << degree;
+        EXPECT_EQ(agreement(f, 1), second) << degree;
+        const PlaneCurve s = joined_smoothly(f);
+        EXPECT_EQ(s.degree(), degree);
+        EXPECT_EQ(s.knots().multiplicity(kBreaks[1]), degree - first);
+        EXPECT_EQ(s.knots().multiplicity(kBreaks[2]), degree - second);
+        EXPECT_EQ(s.knots().multiplicity(kBreaks[0]), degree + 1);
+        expect_same(refine(f, kBreaks), refine(Curve2(extract_bezier(s)), kBreaks));
+      }
+}
+
+TEST(Piecewise, Law8_SeveralFunctionsOnCommonKnots) {
+  RandomRationals random;
+  const std::vector<Curve2> all{pieces_of_order(random, 4, kBreaks, {2, 4}),
+                                pieces_of_order(random, 4, kBreaks, {3, 3}),
+                                pieces_of_order(random, 4, kBreaks, {4, 4})};
+  const KnotVector<Rational> knots = smoothest_knots(all);
+  EXPECT_EQ(knots.multiplicity(kBreaks[1]), 2);
+  EXPECT_EQ(knots.multiplicity(kBreaks[2]), 1);
+  for (const Curve2& f : all) expect_same(f, refine(Curve2(extract_bezier(join_pieces(f, knots))), kBreaks));
+  EXPECT_EQ(smoothest_knots(std::vector<Curve2>{all[2]}).knots(),
+            KnotVector<Rational>::bezier(4, kBreaks.front(), kBreaks.back()).knots());
+}
+
 template <class T>
 class PiecewiseScalars : public ScalarTest<T> {};
 TYPED_TEST_SUITE(PiecewiseScalars, AllScalars, ScalarNames);
