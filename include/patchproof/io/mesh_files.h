@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes as files for other programs: OBJ, STL (binary), VTU and glTF (.glb).
+// Meshes as files for other programs: OBJ, STL (binary), PLY (binary), VTU and glTF (.glb).
 //
 //   OBJ    points, normals, polylines, polygons; of a solid its boundary. Text with every double in full
 //   STL    triangles in single precision; of a solid its boundary; no curves
+//   PLY    points in double precision, polygons and lines; of a solid its boundary
 //   VTU    VTK's unstructured grid: lines, triangles, quadrangles, tetrahedra, hexahedra; parameters as u, v, w, and normals,
 //          where every part has them; "part" says for each cell from which part it comes
 //   glb    glTF 2.0 in one file: lines and triangles in single precision, one node for each part, turned so that z points up
@@ -49,6 +50,7 @@ MeshPart make_part(std::string name, Tessellation<D> piece) {
 
 Result<std::string> write_obj(const std::vector<MeshPart>& parts);
 Result<std::string> write_stl(const std::vector<MeshPart>& parts);
+Result<std::string> write_ply(const std::vector<MeshPart>& parts);
 Result<std::string> write_vtu(const std::vector<MeshPart>& parts);
 Result<std::string> write_glb(const std::vector<MeshPart>& parts);
 
