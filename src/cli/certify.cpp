@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -30,7 +31,7 @@ struct Options {
   int jobs = 0;
   Decimals decimals = Decimals::exact;
   std::string json;
-  bool quiet = false, keep_going = false;
+  bool quiet = false, keep_going = false, time = false;
 };
 
 // One line on standard error, only when it is a terminal.
@@ -192,17 +193,20 @@ int run(const Options& options) {
   if (!options.json.empty() && files.size() > 1) json << "[";
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (certify.profile) certify.request = *tolerances_of(*certify.profile, units_of(files[i]), certify.given);
-    const Result<Report> certified = curves.size() > 1 && only_curves(files[i])
-                                         ? certify_curve_files(curves, certify)
-                                         : std::visit(
-                                               [&]<class File>(const File& file) -> Result<Report> {
-                                                 if constexpr (std::is_same_v<File, CadModel>)
-                                                   return certify_cad(file, certify);
-                                                 else
-                                                   return certify_model(file, certify);
-                                               },
-                                               files[i]);
+    const auto began = std::chrono::steady_clock::now();
+    Result<Report> certified = curves.size() > 1 && only_curves(files[i])
+                                   ? certify_curve_files(curves, certify)
+                                   : std::visit(
+                                         [&]<class File>(const File& file) -> Result<Report> {
+                                           if constexpr (std::is_same_v<File, CadModel>)
+                                             return certify_cad(file, certify);
+                                           else
+                                             return certify_model(file, certify);
+                                         },
+                                         files[i]);
     if (!certified) return report_error(certified.error());
+    if (options.time)
+      certified->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     const Report& report = *certified;
     outcome = worse(outcome, report.outcome());
     if (!options.json.empty()) {
@@ -272,6 +276,7 @@ void add_certify(CLI::App& app, int& exit_code) {
       ->option_text("DEGREES");
   command->add_flag("--keep-going", options->keep_going,
                     "STEP, IGES, BREP: leave out faces that are not usable, list them and report the rest");
+  command->add_flag("--time", options->time, "report how long certifying took, without reading");
   command->add_flag("--quiet", options->quiet, "print the summary only");
   command->callback([options, &exit_code] {
     if (options->profile == "list") {

@@ -237,6 +237,7 @@ void write_json(std::ostream& out, const Report& r) {
   if (!r.gregory_patches.empty()) out << gregory_text(r);
   if (r.cad) out << cad_text(*r.cad);
   if (r.curves) out << curves_json(r);
+  if (r.seconds) out << "\"seconds\":" << Json(*r.seconds).dump() << ",\n";
   out << "\"summary\":" << summary_json(r).dump() << ",\n\"verdict\":\"" << to_string(r.outcome()) << "\"}\n";
 }
 

@@ -223,6 +223,12 @@ void write_table(std::ostream& out, const Report& r, const TableStyle& style) {
     }
     out << '\n';
   }
+  if (r.seconds) {
+    const std::size_t joins = r.joins.size() + (r.curves ? r.curves->joins.size() : 0);
+    out << fmt::format("time     {:.3g} s", *r.seconds);
+    if (joins > 0) out << fmt::format(", {:.3g} ms for each join", 1000 * *r.seconds / static_cast<double>(joins));
+    out << '\n';
+  }
   if (r.profile) write_profile(out, r);
 }
 

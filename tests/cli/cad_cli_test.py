@@ -83,6 +83,11 @@ class Cad(Command):
             self.expect_refusal("certify", BLOCK, *words, names=[words[0], "usage"])
         self.expect_refusal("certify", CUP, "--curvature", "1", names=["--curvature", "usage"])
 
+    def test_the_time_is_reported_when_it_is_asked_for(self):
+        self.assertNotIn("seconds", self.report(0, BLOCK))
+        self.assertGreater(self.report(0, BLOCK, "--time")["seconds"], 0)
+        self.assertRegex(self.expect(0, "certify", BLOCK, "--time", "--quiet").stdout.decode(), r"\ntime +[0-9.e+-]+ s, [0-9.e+-]+ ms for each join\n")
+
     def test_approximated_surfaces(self):
         # One offset surface. What its approximation may add, a tolerance must allow for.
         document = self.report(1, BLOCK, "--gap", "1e-5")

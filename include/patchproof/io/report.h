@@ -142,6 +142,7 @@ struct Report {
   std::vector<ReportedGregoryPatch> gregory_patches;  // of models over Q
   std::optional<CadReport> cad;
   std::optional<CurveReport> curves;
+  std::optional<double> seconds;  // that certifying took, where it is to be reported: no two runs take the same
 
   // pass, fail or undecided over all joins, those of curves as well; undecided when something was asked and there is no
   // join, or a face or an edge could not be looked at.

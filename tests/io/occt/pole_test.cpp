@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trimmed edges that run into the pole of a sphere.
 #include <gtest/gtest.h>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "parts.h"
@@ -31,6 +34,35 @@ TEST_F(CadFiles, SeamsIntoPolesAreSmooth) {
   }
   EXPECT_EQ(found, 2);
 }
+
+// A sector of a body of revolution about its axis: its plane sides stand upright on the round one all along the meridians, up
+// to the pole, where the round one has no normal.
+class Sectors : public CadFiles {
+ protected:
+  void expect_upright(const TopoDS_Shape& sector) const {
+    const Report report = certify_cad(read(write_brep(sector)));
+    int into_pole = 0;
+    for (const ReportedJoin& join : report.joins) {
+      SCOPED_TRACE(join.a.edge);
+      const Certificate& c = join.certificate;
+      if (!c.degenerate.empty()) {
+        ++into_pole;
+        EXPECT_LE(c.angle.lower, 90 + 1e-9);
+        EXPECT_GE(c.angle.upper, 90 - 1e-9);
+        EXPECT_LT(c.angle.upper - c.angle.lower, 0.9);
+      }
+      EXPECT_EQ(join.edge_class, EdgeClass::sharp);
+    }
+    EXPECT_EQ(into_pole, 2);
+  }
+};
+
+TEST_F(Sectors, OfASphere) {
+  expect_upright(BRepPrimAPI_MakeSphere(3.0, 0.0, M_PI / 2, 2.0).Shape());
+  expect_upright(BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(1, 2, 3), gp_Dir(1, 2, 3)), 3.0, 0.0, M_PI / 2, 1.0).Shape());
+}
+
+TEST_F(Sectors, OfACone) { expect_upright(BRepPrimAPI_MakeCone(3.0, 0.0, 4.0, 1.5).Shape()); }
 
 }  // namespace
 }  // namespace patchproof::test
