@@ -57,7 +57,7 @@ enum class ErrorCode {
   basis_along_edge,        // a basis patch that vanishes or runs along the edge
   // Curves and surfaces that are blended or fitted (spline/gerbs_curve.h, spline/least_squares.h):
   bad_window,    // curves blended over an overlap of 0, or of more than a curve
-  not_monotone,  // the B-function t - 2 t^2 (1 - t)
+  not_monotone,  // the B-function t - 4 t^2 (1 - t)
   not_closed,    // a closed surface whose first and last rows differ
   singular_fit,  // eleven samples, all in one span of a spline with eight control points
 };

@@ -41,7 +41,8 @@ struct GerbsBreak {
   std::optional<Vec<Interval, N>> jump;  // of the derivative of order + 1; nothing where all agree
 };
 
-// At every break inside the domain. REQUIRES a RoundingGuard alive.
+// At every break inside the domain, and where the B-function itself is not smooth (BFunction::smoothness). REQUIRES a RoundingGuard
+// alive.
 template <ExactField T, std::size_t M, OrderedField K>
 std::vector<GerbsBreak<M - 1, K>> smoothness(const GerbsCurve<T, M, K>& curve);
 
@@ -137,6 +138,19 @@ int local_order(const GerbsCurve<T, M, K>& curve, int i, const K& t) {
   return smoothness_at_rational(spline, t).order;
 }
 
+// The places λ inside spans where a B-function itself has only some derivatives, in order.
+template <ExactField T, std::size_t M, OrderedField K>
+std::vector<K> kinks_between_knots(const GerbsCurve<T, M, K>& curve) {
+  std::vector<K> out;
+  if (!curve.b_function().smoothness()) return out;
+  const K lambda = embed<K>(curve.b_function().intrinsic().lambda);
+  const KnotVector<K>& knots = curve.knots();
+  for (int i = 1; i < knots.control_count(); ++i)
+    if (knots[i] < knots[i + 1] && !(curve.locals()[i - 1] == curve.locals()[i]))
+      out.push_back(knots[i] + lambda * (knots[i + 1] - knots[i]));
+  return out;
+}
+
 // What the Hermite property and the smoothness of the local curves promise at a break.
 template <ExactField T, std::size_t M, OrderedField K>
 int promised_order(const GerbsCurve<T, M, K>& curve, const K& t) {
@@ -165,8 +179,16 @@ std::vector<GerbsBreak<M - 1, K>> smoothness(const GerbsCurve<T, M, K>& curve) {
     }
     return out;
   }
+  const std::vector<K> kinks = detail::kinks_between_knots(curve);
+  for (const K& t : kinks) {
+    const int i = curve.knots().find_span(t);
+    const int order = std::min(
+        {*curve.b_function().smoothness(), detail::local_order(curve, i - 1, t), detail::local_order(curve, i, t)});
+    out.push_back({t, order, false, std::nullopt});
+  }
   for (std::size_t k = 1; k + 1 < breaks.size(); ++k) {
     const K& t = breaks[k];
+    if (std::binary_search(kinks.begin(), kinks.end(), t)) continue;
     GerbsBreak<M - 1, K> found{t, detail::promised_order(curve, t), true, std::nullopt};
     if (found.order != kOneFunction) {
       const auto next = [&](Side side) {
@@ -184,6 +206,7 @@ std::vector<GerbsBreak<M - 1, K>> smoothness(const GerbsCurve<T, M, K>& curve) {
     }
     out.push_back(std::move(found));
   }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
   return out;
 }
 
