@@ -35,8 +35,8 @@ std::string plain_label(const char* what, int index);
 // About the first of these faces.  REQUIRES one.
 Error about_faces(const std::string& path, const std::vector<LeftOutFace>& unusable);
 
-// ERRORS syntax, and those of check_brep_text; where unusable faces are refused, about the first that cannot be read, before its shape is built: Open
-// CASCADE may not come to an end with it.  THROWS Standard_Failure.
+// ERRORS syntax, and those of check_brep_text; where unusable faces are refused, about the first that cannot be read, before
+// its shape is built: Open CASCADE may not come to an end with it.  THROWS Standard_Failure.
 Result<Loaded> load(const std::string& path, std::string_view bytes, const std::string& format, UnusableFaces unusable);
 Result<Loaded> load_brep(const std::string& path, std::string_view bytes, UnusableFaces unusable);
 
