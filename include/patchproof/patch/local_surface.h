@@ -5,7 +5,8 @@
 //
 // REQUIRES  weights without a zero where the surface is used.
 // ENSURES   (1) partial_derivatives_at are those of the quotient, in every order;  (2) shifted(d, e)(u, v) = c(u − d, v − e);
-//           (3) mapping the points by an affine map maps the surface;  (4) edge_curve: c on a line of constant parameter.
+//           (3) mapping the points by an affine map maps the surface;  (4) edge_curve: c on a line of constant parameter,
+//           or its derivative across it, of weight 1.
 // SCALARS   T: OrderedField, K: OrderedField; results in R: Field, Transcendental for trigonometric functions.
 // ERRORS    make: wrong_count unless there is a point for each pair of functions.
 // NEIGHBOURS spline/local_curve.h.
@@ -142,6 +143,9 @@ LocalCurve<T, M, K> edge_curve(const LocalSurface<T, M, K>& surface, Direction c
                         j = constant == Direction::u ? k : live.first + l;
       points[k] += live.values[order][l] * surface.net()[i * columns + j];
     }
+  if (order > 0)  // a derivative of points of weight 1, as a curve of points
+    for (std::size_t k = 0; k < points.size(); ++k)
+      points[k][M - 1] = T(k == 0 || !surface.basis(along).is_trigonometric() ? 1 : 0);
   LocalCurve<T, M, K> out =
       surface.basis(along).is_trigonometric()
           ? *LocalCurve<T, M, K>::trigonometric(std::move(points))
