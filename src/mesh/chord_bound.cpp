@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bernstein_bounds.h"
 #include "patchproof/patch/boundary.h"
 #include "patchproof/patch/tensor_form.h"
 #include "patchproof/scalar/quadratic.h"
@@ -47,39 +48,13 @@ Net net_of(const Form3<R>& f) {
     m = std::max(m, x.is_empty() ? 0 : x.degree_u());
     n = std::max(n, x.is_empty() ? 0 : x.degree_v());
   }
-  Net out{m, n, std::vector<Vec<Interval, 3>>((m + 1) * static_cast<std::size_t>(n + 1))};
+  Net out{m, n, std::vector<Bounds>((m + 1) * static_cast<std::size_t>(n + 1))};
   for (std::size_t c = 0; c < 3; ++c) {
     if (f[c].is_empty()) continue;
     const std::vector<R> b = f[c].elevated(m, n).bernstein();
-    for (std::size_t k = 0; k < b.size(); ++k) out.points[k][c] = enclosed(b[k]);
+    for (std::size_t k = 0; k < b.size(); ++k) put(out.points[k], c, enclosed(b[k]));
   }
   return out;
-}
-
-// The line's coefficients on [a, b]: `count` points, `step` apart.
-void restrict_line(Vec<Interval, 3>* p, int count, int step, const Interval& a, const Interval& b) {
-  const Interval one(1), zero(0);
-  const auto left = [&](const Interval& t) {
-    const Interval s = one - t;
-    for (int r = 1; r < count; ++r)
-      for (int j = count - 1; j >= r; --j) p[j * step] = s * p[(j - 1) * step] + t * p[j * step];
-  };
-  const auto right = [&](const Interval& t) {
-    const Interval s = one - t;
-    for (int r = 1; r < count; ++r)
-      for (int j = 0; j + r < count; ++j) p[j * step] = s * p[j * step] + t * p[(j + 1) * step];
-  };
-  const bool from_begin = a.is_point() && a.inf() == 0, to_end = b.is_point() && b.inf() == 1;
-  if (from_begin && to_end) return;
-  if (from_begin) return left(b);
-  if (to_end) return right(a);
-  if (b.inf() >= (one - a).inf()) {  // the longer part first: nothing small is divided by
-    left(b);
-    right(a / b);
-  } else {
-    right(a);
-    left((b - a) / (one - a));
-  }
 }
 
 struct LocalBox {
@@ -100,7 +75,7 @@ Interval length_of(const Vec<Interval, 3>& p) { return sqrt(square(p[0]) + squar
 
 double largest(const Net& net) {
   double out = 0;
-  for (const Vec<Interval, 3>& p : net.points) out = std::max(out, length_of(p).sup());
+  for (const Bounds& p : net.points) out = std::max(out, length_of(intervals(p)).sup());
   return out;
 }
 
@@ -310,14 +285,14 @@ Vec<Interval, 3> SurfacePieces::point(double u, double v) const {
   const Interval s = local(u_, i, u), t = local(v_, j, v);
   const auto at = [&](Net net) {
     const int rows = net.degree_u + 1, columns = net.degree_v + 1;
-    const auto run = [](Vec<Interval, 3>* p, int count, int step, const Interval& x) {
-      const Interval y = Interval(1) - x;
+    const auto run = [](Bounds* p, int count, int step, const Interval& x) {
+      const Average average(x);
       for (int r = 1; r < count; ++r)
-        for (int k = 0; k + r < count; ++k) p[k * step] = y * p[k * step] + x * p[(k + 1) * step];
+        for (int k = 0; k + r < count; ++k) average(p[k * step], p[k * step], p[(k + 1) * step]);
     };
     for (int k = 0; k < rows; ++k) run(&net.points[static_cast<std::size_t>(k) * columns], columns, 1, t);
     run(&net.points[0], rows, columns, s);
-    return net.points[0];
+    return intervals(net.points[0]);
   };
   Vec<Interval, 3> p = at(piece.position);
   const Interval w = piece.rational ? at(piece.weight)[0] : Interval(1);
@@ -345,7 +320,7 @@ SurfaceHull SurfacePieces::bound(const ParameterBox<double>& box) const {
       Interval over_first(1), over_second(1), least(1);
       if (piece.rational) {
         double smallest = kInfinity;
-        for (const auto& w : restricted(piece.weight, part).points) smallest = std::min(smallest, w[0].inf());
+        for (const auto& w : restricted(piece.weight, part).points) smallest = std::min(smallest, -w[0]);
         if (!(smallest > 0)) {
           out.uu = out.uv = out.vv = out.u = out.v = kInfinity;
           out.normals.push_back({});
@@ -372,10 +347,10 @@ SurfaceHull SurfacePieces::bound(const ParameterBox<double>& box) const {
       };
       if (i > over_u.first) crossed(lines_u[i - over_u.first], piece.jump_u, piece.torn_u);
       if (j > over_v.first) crossed(lines_v[j - over_v.first], piece.jump_v, piece.torn_v);
-      for (const Vec<Interval, 3>& n : restricted(piece.normal, part).points) {
-        const auto zero = [](const Interval& x) { return x.inf() == 0 && x.sup() == 0; };
-        if (zero(n[0]) && zero(n[1]) && zero(n[2])) continue;  // takes nothing away from the cone
-        out.normals.push_back({{{n[0].inf(), n[0].sup()}, {n[1].inf(), n[1].sup()}, {n[2].inf(), n[2].sup()}}});
+      for (const Bounds& n : restricted(piece.normal, part).points) {
+        if (std::all_of(n.begin(), n.end(), [](double x) { return x == 0; }))
+          continue;  // takes nothing away from the cone
+        out.normals.push_back({{{-n[0], n[1]}, {-n[2], n[3]}, {-n[4], n[5]}}});
       }
     }
   for (const double jump : lines_u) out.jump_u += jump;

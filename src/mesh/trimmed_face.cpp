@@ -64,6 +64,18 @@ void FaceMesh::link(int self, const std::vector<EdgeMesh>& edges) {
     return;
   }
   joints = std::move(*closed);
+  // A gap is a pole, or something is missing.
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    if (!joints[k].gap) continue;
+    const DirectedUse &use = uses[k], &next = uses[joints[k].next];
+    for (const double x : {0.25, 0.5, 0.75}) {
+      const auto at = [&](std::size_t c) { return (1 - x) * use.end[c] + x * next.begin[c]; };
+      if (!(distance(pieces.point(at(0), at(1)), use.to) <= 2 * (use.tolerance + next.tolerance))) {
+        fault = "its edges do not close";
+        return;
+      }
+    }
+  }
   gaps.assign(joints.size(), {});
 }
 

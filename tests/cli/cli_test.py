@@ -19,6 +19,7 @@ from convert_cases import Convert, Profiles
 from curve_cases import Curves
 from fill_cases import Fill
 from fit_cases import Fit
+from tessellate_cases import Tessellate
 
 
 class Certify(Command):

@@ -63,10 +63,11 @@ class SurfacePieces {
   Vec<Interval, 3> point(double u, double v) const;
   SurfaceHull bound(const ParameterBox<double>& box) const;
 
-  // Bernstein coefficients on the unit square, v running fastest.
+  // Bernstein coefficients on the unit square, v running fastest: of each the intervals of x, y, z as (−inf, sup), so that
+  // averages are the same operations, rounded upward, on six numbers.
   struct Net {
     int degree_u = 0, degree_v = 0;
-    std::vector<Vec<Interval, 3>> points;
+    std::vector<std::array<double, 6>> points;
   };
   struct Piece {
     Net position, weight;                 // A − w c and, when it is not 1, w (in the first component)
