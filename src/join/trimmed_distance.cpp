@@ -28,7 +28,7 @@ double distance_of_part(const MovedSide& side, const Rational& begin, const Rati
   for (const int i : run.spans_u)
     for (const int j : run.spans_v) {
       check_deadline();
-      const Vec<Model, 4> h = evaluate_in_span<Model>(side.surface, i, j, run.u, run.v);
+      const Vec<Model, 4> h = side.surface.derivatives<Model>(i, j, run.u, run.v, 0).at(0, 0);
       const Interval w = h[3].bernstein_range();
       if (!(w.inf() > 0) && !(w.sup() < 0)) return 0;
       Interval square_sum(0);
@@ -43,8 +43,7 @@ double distance_of_part(const MovedSide& side, const Rational& begin, const Rati
 
 double distance_from_edge(const Vec<Rational, 3>& point, const TrimmedSide& side, double enough, int parts) {
   const AffineMap<Rational> move = translation(-point);
-  const MovedSide moved{enclosed(apply(move, *side.surface)), &side.parameters, side.flipped,
-                        has_unit_weights(side.parameters)};
+  const MovedSide moved(side, move);
   std::vector<std::pair<Rational, Rational>> open;
   const std::vector<Rational> breaks = side.parameters.knots().breaks();
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) open.emplace_back(breaks[i], breaks[i + 1]);

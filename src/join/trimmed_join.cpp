@@ -49,9 +49,7 @@ class Bounder {
     const Rational beside = (end_ - begin_) * from_double(kBesidePole);
     first_ = is_hidden(0) ? Rational(begin_ + beside) : begin_;
     last_ = is_hidden(1) ? Rational(end_ - beside) : end_;
-    for (const TrimmedSide* side : {&join.a, &join.b})
-      sides_.push_back({enclosed(apply(move, *side->surface)), &side->parameters, side->flipped,
-                        has_unit_weights(side->parameters)});
+    for (const TrimmedSide* side : {&join.a, &join.b}) sides_.emplace_back(*side, move);
     const DeadlineScope most(share_of_time(3, 2));  // the rest is for looking at the pieces
     collect(join);
   }

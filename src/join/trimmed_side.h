@@ -11,6 +11,7 @@
 
 #include "patchproof/deadline.h"
 #include "patchproof/join/trimmed_join.h"
+#include "patchproof/patch/affine.h"
 #include "patchproof/patch/rational_patch.h"
 #include "patchproof/scalar/power_series.h"
 #include "patchproof/scalar/taylor_model.h"
@@ -19,26 +20,78 @@ namespace patchproof::trimmed {
 
 constexpr int kOrder = 7;
 using Model = TaylorModel<kOrder>;
-using Surface = BsplinePatch<Interval, 4, Rational>;
 using ParameterCurve = BsplineCurve<Rational, 3>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// One side, with its surface moved so that coordinates are as small as the edge allows.
-struct MovedSide {
-  Surface surface;
-  const ParameterCurve* curve;
-  bool flipped, polynomial;
-};
 
 inline bool has_unit_weights(const ParameterCurve& curve) {
   return std::all_of(curve.points().begin(), curve.points().end(), [](const auto& p) { return p[2] == Rational(1); });
 }
 
-inline Surface enclosed(const BsplinePatch<Rational, 4>& patch) {
-  std::vector<Vec<Interval, 4>> net;
-  for (const auto& p : patch.net()) net.push_back({{enclose(p[0]), enclose(p[1]), enclose(p[2]), enclose(p[3])}});
-  return {patch.knots(Direction::u), patch.knots(Direction::v), std::move(net)};
-}
+// What the Taylor models of a side are taken of: a spline, or a GERBS surface, whose cells between breaks stand for spans.
+class Surface {
+ public:
+  Surface(const TrimmedSide& side, const AffineMap<Rational>& move) {
+    if (!side.gerbs) {
+      const BsplinePatch<Rational, 4> patch = apply(move, *side.surface);
+      std::vector<Vec<Interval, 4>> net;
+      for (const auto& p : patch.net()) net.push_back({{enclose(p[0]), enclose(p[1]), enclose(p[2]), enclose(p[3])}});
+      spline_.emplace(patch.knots(Direction::u), patch.knots(Direction::v), std::move(net));
+      return;
+    }
+    gerbs_ = side.gerbs->map_locals(
+        [&](const auto& local) { return local.map_points([&](const Vec<Rational, 4>& p) { return apply(move, p); }); });
+    for (const Direction d : {Direction::u, Direction::v}) {
+      std::vector<Rational> breaks = gerbs_->breaks(d);
+      breaks.insert(breaks.begin(), breaks.front());
+      breaks.push_back(breaks.back());
+      cells_.push_back(KnotVector<Rational>::make_unchecked(1, std::move(breaks)));
+    }
+  }
+
+  const KnotVector<Rational>& knots(Direction d) const {
+    return spline_ ? spline_->knots(d) : cells_[d == Direction::u ? 0 : 1];
+  }
+  // Of homogeneous points, on the polynomial or the cell of these spans.
+  template <Field R>
+  PartialDerivatives<R, 4> derivatives(int span_u, int span_v, const R& u, const R& v, int order) const {
+    if (spline_) return partial_derivatives_in_span<R>(*spline_, span_u, span_v, u, v, order, order);
+    if constexpr (Transcendental<R>) {
+      const auto middle = [](const KnotVector<Rational>& k, int span) {
+        return Rational((k[span] + k[span + 1]) / Rational(2));
+      };
+      const auto points =
+          partial_derivatives_at<R>(*gerbs_, {middle(cells_[0], span_u), middle(cells_[1], span_v)},
+                                    {patchproof::Side::right, patchproof::Side::right}, u, v, order, order);
+      std::vector<Vec<R, 4>> out;
+      for (int k = 0; k <= order; ++k)
+        for (int l = 0; l <= order; ++l) {
+          const Vec<R, 3>& p = points.at(k, l);
+          out.push_back({{p[0], p[1], p[2], R(k == 0 && l == 0 ? 1 : 0)}});
+        }
+      return {order, order, std::move(out)};
+    } else {
+      PATCHPROOF_REQUIRES(false, "a GERBS surface has no values in this scalar");
+      return {0, 0, {}};
+    }
+  }
+
+ private:
+  std::optional<BsplinePatch<Interval, 4, Rational>> spline_;
+  std::optional<GerbsSurface<Rational, 4>> gerbs_;
+  std::vector<KnotVector<Rational>> cells_;  // of a GERBS surface, in u and v
+};
+
+// One side, with its surface moved so that coordinates are as small as the edge allows.
+struct MovedSide {
+  MovedSide(const TrimmedSide& side, const AffineMap<Rational>& move)
+      : surface(side, move),
+        curve(&side.parameters),
+        flipped(side.flipped),
+        polynomial(has_unit_weights(side.parameters)) {}
+  Surface surface;
+  const ParameterCurve* curve;
+  bool flipped, polynomial;
+};
 
 inline const Rational& inside(const KnotVector<Rational>& k, const Rational& x) {
   return x < k.domain_begin() ? k.domain_begin() : x > k.domain_end() ? k.domain_end() : x;
@@ -149,7 +202,7 @@ inline std::vector<Frame> frames(const MovedSide& side, const Run& run) {
   for (const int i : run.spans_u)
     for (const int j : run.spans_v) {
       check_deadline();
-      const auto d = partial_derivatives_in_span<Model>(side.surface, i, j, run.u, run.v, 1, 1);
+      const auto d = side.surface.derivatives<Model>(i, j, run.u, run.v, 1);
       const Vec<Model, 3> n = scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1));
       out.push_back({d.at(0, 0), side.flipped ? -n : n});
     }
@@ -167,7 +220,7 @@ inline std::vector<Vec<Interval, 3>> normal_rates(const MovedSide& side, const R
   for (const int i : run.spans_u)
     for (const int j : run.spans_v) {
       check_deadline();
-      const auto d = partial_derivatives_in_span<Series>(side.surface, i, j, u, v, 1, 1);
+      const auto d = side.surface.derivatives<Series>(i, j, u, v, 1);
       const Vec<Series, 3> n = scaled_normal(d.at(0, 0), d.at(1, 0), d.at(0, 1));
       Vec<Interval, 3> rate;
       for (int c = 0; c < 3; ++c) rate[c] = n[c].coefficient({1}).bernstein_range();
@@ -196,6 +249,7 @@ struct Pole {
 };
 // COST of an ordinary end that of intervals; of a pole, and of what may be one, exact values.
 inline Pole pole_at(const TrimmedSide& side, const Rational& end, const Rational& middle) {
+  if (side.gerbs) return {};  // no exact values: where its normal vanishes, nothing is known of the angle
   const Rational short_square = from_double(0x1p-60);
   const auto a = enclosed_end(side, end), b = enclosed_end(side, middle);
   if (a && b && dot(a->normal, a->normal).inf() > (Interval(0x1p-60) * dot(b->normal, b->normal)).sup()) return {};

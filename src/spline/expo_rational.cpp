@@ -28,12 +28,13 @@ bool is_integer(const Rational& x) { return denominator(x) == 1; }
 // ln(1+δ) = δ − δ²/2 + …, after e^(what a double knows of the logarithm) is divided out.
 Ball log(const Ball& x) {
   const Interval all = x.to_interval();
-  const double guess = std::log(all.inf() / 2 + all.sup() / 2);
+  const double guess = std::log(all.inf() + (all.sup() - all.inf()) / 2);  // halves of the smallest numbers are 0
   const Ball delta = x * exp(Ball(-guess)) - Ball(1);
   const Interval size = delta.to_interval();
   const double most = std::max(std::fabs(size.inf()), std::fabs(size.sup()));
   if (!(most < 0.5)) {  // a wide one: the logarithm grows
-    PATCHPROOF_REQUIRES(all.inf() > 0 && std::isfinite(all.sup()), "log of a number that may be 0");
+    PATCHPROOF_REQUIRES(0 < all.inf() && all.inf() < all.sup() && std::isfinite(all.sup()),
+                        "log of a number that may be 0");
     const Interval low = log(Ball(all.inf())).to_interval(), high = log(Ball(all.sup())).to_interval();
     return ball_between(low.inf(), high.sup());
   }
@@ -130,11 +131,10 @@ class ExpoRational final : public SmoothBFunction {
     const Interval l = Ball(lambda_).to_interval();
     return Kink{l.inf(), l.sup(), static_cast<int>(std::ceil(p_))};
   }
-  std::vector<Ball> series_beside_kink(double low, double high, int n) const override {
+  std::vector<Ball> series_beside_kink(double low, double high, bool is_below, int n) const override {
     const int terms = std::min(n, kink()->smoothness) - 1;
     std::vector<Ball> out{Ball(0)};
     if (terms < 0) return out;
-    const bool is_below = low < kink()->below;
     const Ball t = ball_between(low, high), u = is_below ? Ball(lambda_) - t : t - Ball(lambda_);
     const Interval distance = u.to_interval();
     const Ball total = panels()->total;

@@ -28,9 +28,7 @@ Ball cut(const Ball& t) {
   }
   return x;
 }
-Interval cut(const Interval& t) {
-  return Interval(std::clamp(t.inf(), 0.0, 1.0), std::clamp(t.sup(), 0.0, 1.0));
-}
+Interval cut(const Interval& t) { return Interval(std::clamp(t.inf(), 0.0, 1.0), std::clamp(t.sup(), 0.0, 1.0)); }
 
 bool meets_kink(const SmoothBFunction& b, double low, double high) {
   const auto kink = b.kink();
@@ -84,8 +82,8 @@ std::vector<Range> ranges(const SmoothBFunction& b, double low, double high, int
     if (from == to && (from == 0 || from == 1)) break;
     const double next = std::min(to, from + std::min(from, 1 - from) / 18);
     if (meets_kink(b, from, next)) {
-      if (from < kink->below) include(b.series_beside_kink(from, kink->above, order));
-      include(b.series_beside_kink(kink->below, std::max(next, kink->above), order));
+      if (kink->has_below(from)) include(b.series_beside_kink(from, kink->above, true, order));
+      include(b.series_beside_kink(kink->below, std::max(next, kink->above), false, order));
     } else {
       include(b.series(ball_between(from, next), order));
     }

@@ -44,13 +44,15 @@ class SmoothBFunction {
   // At least |B_k| on (0, s], for end = 0, or on [1 − s, 1). REQUIRES k ≥ 1, 0 < s ≤ reach(end).
   virtual double end_bound(int end, double s, int k) const = 0;
   virtual double reach(int end) const = 0;
-  // Doubles around a point where B is C^smoothness and no more, and B_0 … B_smoothness on t, one of whose ends it is.
+  // Doubles around a point where B is C^smoothness and no more, and B_0 … B_smoothness on [low, high], below or above it, where it is one end.
   struct Kink {
     double below, above;
     int smoothness;
+    // Whether numbers of [x, …] lie below it: the double next below is itself no kink.
+    bool has_below(double x) const { return x < below || (x == below && below < above); }
   };
   virtual std::optional<Kink> kink() const { return std::nullopt; }
-  virtual std::vector<Ball> series_beside_kink(double, double, int) const { return {}; }
+  virtual std::vector<Ball> series_beside_kink(double, double, bool /*is_below*/, int) const { return {}; }
 
   const DoubleTable& table() const;
 

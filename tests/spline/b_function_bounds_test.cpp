@@ -118,8 +118,13 @@ TEST(BFunctionBounds, Law5_EndsAndWhatSticksOut) {
         EXPECT_TRUE(meet(begin[k], point[k].to_interval()) && meet(begin[k], ball[k].to_interval()));
       }
     }
-    EXPECT_THROW(derivatives(b, Interval(1.5, 2.0), 0), contract_error);
-    EXPECT_THROW(derivatives(b, Ball(-1), 0), contract_error);
+    // Beyond the ends B goes on as 0 and 1.
+    const auto after = derivatives(b, Interval(1.5, 2.0), 3);
+    const auto before = derivatives(b, Ball(-1), 3);
+    for (int k = 0; k <= 3; ++k) {
+      EXPECT_TRUE(after[k].is_point() && after[k].inf() == (k == 0 ? 1 : 0)) << text << k;
+      EXPECT_EQ(before[k].sign(), Sign::zero) << text << k;
+    }
   }
 }
 
@@ -264,6 +269,27 @@ TEST(BFunctionBounds, Law7_Threads) {
     });
   for (std::thread& thread : threads) thread.join();
   for (const double x : results) EXPECT_EQ(x, results[0]);
+}
+
+// The double next below λ = 3/5 lies on the rising side, where B″ > 0; its value was found by an independent program.
+TEST(BFunctionBounds, Law5_JustBelowAKinkTheSideBelowCounts) {
+  const RoundingGuard guard;
+  const BFunction b = BFunction::parse("expo-rational(1/2,3,3/2,3/5)").value();
+  const double t =
+      std::nextafter(0.6, 0.0) < 0.6 && Rational(3) / Rational(5) > from_double(0.6) ? 0.6 : std::nextafter(0.6, 0.0);
+  const Interval second = derivatives(b, Interval(t), 2)[2];
+  EXPECT_LE(second.inf(), 0.0020851992957);
+  EXPECT_GE(second.sup(), 0.0020851992957);
+}
+
+TEST(BFunctionBounds, Law5_TheSmallestNumbers) {
+  const RoundingGuard guard;
+  for (const char* text : {"expo-rational(1/2,1,1,1/2)", "expo-rational(1/2,3,3/2,3/5)", "expo-rational", "logistic"})
+    for (const double t : {5e-324, 1e-320, 1e-300}) {
+      const auto values = derivatives(BFunction::parse(text).value(), Interval(0.0, t), 2);
+      EXPECT_LE(values[0].sup(), 1e-15) << text;
+      EXPECT_GE(values[0].sup(), 0) << text;
+    }
 }
 
 }  // namespace

@@ -33,16 +33,19 @@
 #include "patchproof/join/deviation.h"
 #include "patchproof/join/join.h"
 #include "patchproof/patch/bspline_patch.h"
+#include "patchproof/patch/gerbs_surface.h"
 #include "patchproof/scalar/rational.h"
 #include "patchproof/spline/curve.h"
 
 namespace patchproof {
 
-// A face along an edge.
+// A face along an edge. Where it is a GERBS surface that is no spline, bounds are those of `gerbs`, and `surface` only tells its
+// domain, and about where it lies.
 struct TrimmedSide {
   const BsplinePatch<Rational, 4>* surface;
   BsplineCurve<Rational, 3> parameters;  // homogeneous (w·u, w·v, w)
   bool flipped = false;                  // the face's normal is −S_u × S_v
+  const GerbsSurface<Rational, 4>* gerbs = nullptr;
 };
 
 struct TrimmedJoin {

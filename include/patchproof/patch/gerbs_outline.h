@@ -4,7 +4,7 @@
 // nothing may be concluded from them. Where the original is a spline, to_spline and to_patch give it exactly.
 //
 // ENSURES  (1) at the nodes, eight for each part between breaks, values and first derivatives are those of the original, within
-//          rounding;  (2) an edge depends on nothing but the values and derivatives on that edge.
+//          rounding;  (2) an edge depends on nothing but the values and derivatives on that edge, within rounding.
 // TEST     tests/patch/gerbs_outline_test.cpp checks (1) and (2).
 #pragma once
 
@@ -69,13 +69,15 @@ Vec<T, 4> outline_point(const Vec<double, 3>& p) {
 
 template <ExactField T>
 BsplinePatch<T, 4> outline(const GerbsSurface<T, 4>& surface) {
-  const auto u = detail::outline_nodes(surface.breaks(Direction::u)), v = detail::outline_nodes(surface.breaks(Direction::v));
+  const auto u = detail::outline_nodes(surface.breaks(Direction::u)),
+             v = detail::outline_nodes(surface.breaks(Direction::v));
   std::vector<Vec<T, 4>> net;
   for (const auto& i : u.nodes)
     for (const auto& j : v.nodes) {
       const auto s = partial_derivatives_at<double>(surface, {i.at, j.at}, {i.side, j.side}, embed<double>(i.at),
                                                     embed<double>(j.at), 1, 1);
-      net.push_back(detail::outline_point<T>(s.at(0, 0) + i.step * s.at(1, 0) + j.step * s.at(0, 1) + (i.step * j.step) * s.at(1, 1)));
+      net.push_back(detail::outline_point<T>(s.at(0, 0) + i.step * s.at(1, 0) + j.step * s.at(0, 1) +
+                                             (i.step * j.step) * s.at(1, 1)));
     }
   return {u.knots, v.knots, std::move(net)};
 }

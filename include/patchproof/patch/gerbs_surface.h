@@ -88,8 +88,8 @@ PartialDerivatives<R, M - 1> partial_derivatives_at(const GerbsSurface<T, M, K>&
                                                     const std::array<K, 2>& inside, const std::array<Side, 2>& sides,
                                                     const R& u, const R& v, int order_u, int order_v);
 
-// What S is on an edge of its domain; with order 1, the derivative across it. REQUIRES splines across the edge; for order 1 unit
-// weights, and a B-function of order 1 or more.
+// What S is on an edge of its domain; with order 1, the derivative across it. REQUIRES splines across the edge, and for order 1 a
+// B-function of order 1 or more and no local surface that is both rational and trigonometric.
 template <OrderedField T, std::size_t M, OrderedField K>
 GerbsCurve<T, M, K> edge(const GerbsSurface<T, M, K>& surface, EdgeName name, int order = 0);
 

@@ -21,6 +21,7 @@
 #include "patchproof/patch/boundary.h"
 #include "patchproof/patch/rational_patch.h"
 #include "patchproof/spline/local_curve.h"
+#include "patchproof/spline/product.h"
 
 namespace patchproof {
 
@@ -124,32 +125,61 @@ PartialDerivatives<R, M - 1> partial_derivatives_at(const LocalSurface<T, M, K>&
 }
 
 // The curve v ↦ c(at, v), or u ↦ c(u, at) where `constant` is v; or the derivative of that order across it, as a curve of points.
-// REQUIRES splines in the direction that is held constant, unit weights unless order is 0.
+// REQUIRES splines in the direction that is held constant; order ≤ 1 where there are weights, and then splines in both directions.
 template <OrderedField T, std::size_t M, OrderedField K>
 LocalCurve<T, M, K> edge_curve(const LocalSurface<T, M, K>& surface, Direction constant, const K& at, Side side,
                                int order = 0);
 
+namespace detail {
+
+// (A′W − AW′, W²): the derivative of A/W, of splines with the same knots.
+template <OrderedField T, std::size_t M, OrderedField K>
+BsplineCurve<T, M, K> quotient_derivative(const BsplineCurve<T, M, K>& value, const BsplineCurve<T, M, K>& derivative) {
+  const auto weights = [](const BsplineCurve<T, M, K>& c) {
+    std::vector<Vec<T, 1>> out;
+    for (const Vec<T, M>& p : c.points()) out.push_back({{p[M - 1]}});
+    return BsplineCurve<T, 1, K>(c.knots(), std::move(out));
+  };
+  const BsplineCurve<T, M, K> first = product(weights(value), derivative), second = product(weights(derivative), value),
+                              squares = product(weights(value), value);
+  std::vector<Vec<T, M>> points;
+  for (std::size_t k = 0; k < first.points().size(); ++k) {
+    points.push_back(first.points()[k] - second.points()[k]);
+    points.back()[M - 1] = squares.points()[k][M - 1];
+  }
+  return {first.knots(), std::move(points)};
+}
+
+}  // namespace detail
+
 template <OrderedField T, std::size_t M, OrderedField K>
 LocalCurve<T, M, K> edge_curve(const LocalSurface<T, M, K>& surface, Direction constant, const K& at, Side side,
                                int order) {
+  PATCHPROOF_REQUIRES(order <= 1 || surface.has_unit_weights(), "edge_curve: second derivatives of a rational surface");
   const Direction along = other(constant);
   const K place = at - surface.shift(constant);
   const LiveFunctions<T> live = live_functions<T>(surface.basis(constant), place, side, embed<T>(place), order);
   const int columns = surface.basis(Direction::v).count();
-  std::vector<Vec<T, M>> points(surface.basis(along).count());
-  for (std::size_t k = 0; k < points.size(); ++k)
-    for (std::size_t l = 0; l < live.values[order].size(); ++l) {
-      const std::size_t i = constant == Direction::u ? live.first + l : k,
-                        j = constant == Direction::u ? k : live.first + l;
-      points[k] += live.values[order][l] * surface.net()[i * columns + j];
-    }
-  if (order > 0)  // a derivative of points of weight 1, as a curve of points
+  const auto row = [&](int r) {
+    std::vector<Vec<T, M>> points(surface.basis(along).count());
     for (std::size_t k = 0; k < points.size(); ++k)
-      points[k][M - 1] = T(k == 0 || !surface.basis(along).is_trigonometric() ? 1 : 0);
-  LocalCurve<T, M, K> out =
-      surface.basis(along).is_trigonometric()
-          ? *LocalCurve<T, M, K>::trigonometric(std::move(points))
-          : LocalCurve<T, M, K>(BsplineCurve<T, M, K>(*surface.basis(along).knots(), std::move(points)));
+      for (std::size_t l = 0; l < live.values[r].size(); ++l) {
+        const std::size_t i = constant == Direction::u ? live.first + l : k,
+                          j = constant == Direction::u ? k : live.first + l;
+        points[k] += live.values[r][l] * surface.net()[i * columns + j];
+      }
+    return points;
+  };
+  using Curve = BsplineCurve<T, M, K>;
+  const KnotVector<K>* knots = surface.basis(along).knots();
+  if (order == 1 && !surface.has_unit_weights())
+    return LocalCurve<T, M, K>(detail::quotient_derivative(Curve(*knots, row(0)), Curve(*knots, row(1))))
+        .shifted(surface.shift(along));
+  std::vector<Vec<T, M>> points = row(order);
+  if (order > 0)  // a derivative of points of weight 1, as a curve of points
+    for (std::size_t k = 0; k < points.size(); ++k) points[k][M - 1] = T(k == 0 || knots ? 1 : 0);
+  const LocalCurve<T, M, K> out = knots ? LocalCurve<T, M, K>(Curve(*knots, std::move(points)))
+                                        : *LocalCurve<T, M, K>::trigonometric(std::move(points));
   return out.shifted(surface.shift(along));
 }
 

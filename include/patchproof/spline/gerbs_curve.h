@@ -14,7 +14,8 @@
 //
 // REQUIRES  local curves whose weights have no zero where they are used.
 // ENSURES   (1) derivatives_at is the formula above, in every order and scalar;  (2) Hermite: where B has order n and local
-//           curves are Cⁿ, f^(r)(t_{i+1}) = c_i^(r)(t_{i+1}) from both sides, r ≤ n; so f is Cⁿ;  (3) local curves that are all one
+//           curves are Cⁿ, f^(r)(t_{i+1}) = c_i^(r)(t_{i+1}) from both sides, r ≤ n; so f is Cⁿ, as far as B is
+//           (BFunction::smoothness);  (3) local curves that are all one
 //           curve g give f = g;  (4) one affine map of all local curves maps f;  (5) closed curves end as they begin, with
 //           n derivatives;  (6) blend: f is the first curve before the window, the second one after it.
 // SCALARS   T: OrderedField, K: OrderedField; values in R: Field, where B and the local curves have values in R
@@ -106,11 +107,14 @@ std::optional<Error> not_closed_knots(const KnotVector<K>& knots) {
   const auto [first, last] = closed_ends(breaks);
   if (first < breaks.front() && breaks.back() < last && first == knots.knots().front() && last == knots.knots().back())
     return std::nullopt;
-  return Error{
-      ErrorCode::not_closed, "",
-      "the first and the last knot of a closed direction repeat the spans at its ends, and these are not empty",
-      to_text(knots.knots().front()) + " … " + to_text(knots.knots().back()) + " instead of " + to_text(first) + " … " +
-          to_text(last)};
+  if (!(first < breaks.front() && breaks.back() < last))
+    return Error{ErrorCode::not_closed, "", "the first and the last span of a closed direction are not empty",
+                 to_text(breaks[0]) + " … " + to_text(breaks[1]) + " and " + to_text(breaks[breaks.size() - 2]) +
+                     " … " + to_text(breaks.back())};
+  return Error{ErrorCode::not_closed, "",
+               "the first and the last knot of a closed direction repeat the spans at its ends",
+               to_text(knots.knots().front()) + " … " + to_text(knots.knots().back()) + " instead of " +
+                   to_text(first) + " … " + to_text(last)};
 }
 
 // The local curves or rows of one direction: their number, or why it is another.

@@ -167,13 +167,29 @@ template <ExactField T, std::size_t M, OrderedField K>
 std::vector<GerbsBreak<M - 1, K>> smoothness(const GerbsCurve<T, M, K>& curve) {
   std::vector<GerbsBreak<M - 1, K>> out;
   const std::vector<K> breaks = curve.breaks();
-  if (const auto spline = to_spline(curve)) {
+  if (curve.is_exact()) {
+    // The first jump is mostly that of the derivative after B's order; where it is not, the polynomials decide.
+    const int likely = curve.b_function().order().value_or(0) + 1;
+    std::optional<BsplineCurve<T, M, K>> spline;
     for (std::size_t k = 1; k + 1 < breaks.size(); ++k) {
-      const Smoothness<T, M - 1> here = smoothness_at_rational(*spline, breaks[k]);
-      GerbsBreak<M - 1, K> found{breaks[k], here.order, true, std::nullopt};
-      if (!here.is_one_function()) {
+      const K& t = breaks[k];
+      const auto left = derivatives_at<T>(curve, t, Side::left, embed<T>(t), likely),
+                 right = derivatives_at<T>(curve, t, Side::right, embed<T>(t), likely);
+      int order = 0;
+      while (order <= likely && left[order] == right[order]) ++order;
+      GerbsBreak<M - 1, K> found{t, order - 1, true, std::nullopt};
+      Vec<T, M - 1> jump{};
+      if (order <= likely) {
+        jump = right[order] - left[order];
+      } else {
+        if (!spline) spline = *to_spline(curve);
+        const Smoothness<T, M - 1> here = smoothness_at_rational(*spline, t);
+        found.order = here.order;
+        jump = here.jump;
+      }
+      if (found.order != kOneFunction) {
         found.jump.emplace();
-        for (std::size_t c = 0; c + 1 < M; ++c) (*found.jump)[c] = embed<Interval>(here.jump[c]);
+        for (std::size_t c = 0; c + 1 < M; ++c) (*found.jump)[c] = embed<Interval>(jump[c]);
       }
       out.push_back(std::move(found));
     }
