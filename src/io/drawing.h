@@ -35,6 +35,7 @@ struct CurveDrawing {
   bool is_rational = false, is_plane = false;
   std::vector<Component> components;
   std::vector<DrawnControl> controls;
+  std::string kind{};  // what is said of it, in place of its degree and control points
 };
 
 struct DrawnNet {
@@ -57,6 +58,7 @@ struct PatchDrawing {
   std::vector<Tessellation<2>> pieces;
   std::array<int, 2> count{};  // control points along u and v; none: a Gregory patch
   std::vector<DrawnNet> nets;
+  std::string kind{};  // as of curves
 };
 
 // Parameters t stand at (t − first knot)/(last knot − first knot), computed exactly.
@@ -94,6 +96,8 @@ template <ExactField T>
 Result<std::vector<BasisDrawing>> draw_basis(const Model<T>& model, const PlotOptions& options);
 
 std::string svg_scene(const Drawing& drawing, const PlotOptions& options);
+// One for each, all in the same view.
+std::vector<std::string> svg_scenes(const std::vector<Drawing>& drawings, const PlotOptions& options);
 std::string svg_basis(const std::vector<BasisDrawing>& panels, const PlotOptions& options);
 
 // The indices of the curves, patches and solids that the options choose: the given ones, or all but the patches that are

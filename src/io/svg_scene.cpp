@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "io/drawing_patches.h"
 #include "io/svg_facets.h"
@@ -21,11 +22,17 @@ constexpr std::size_t kMostLabels = 300;  // knots: none is labelled when there 
 
 class Scene {
  public:
-  Scene(const Drawing& drawing, const PlotOptions& options)
-      : drawing_(drawing), show_polygons_(options.control.value_or(true)), plane_(is_plane(drawing)), view_(plane_) {
+  // Everything of `all` has its place in the view; `drawing` is one of them.
+  Scene(const Drawing& drawing, std::span<const Drawing> all, const PlotOptions& options)
+      : drawing_(drawing),
+        show_polygons_(options.control.value_or(true)),
+        plane_(std::all_of(all.begin(), all.end(), is_plane)),
+        view_(plane_) {
     title_ = options.title;
     describe();
-    include_everything();
+    for (const Drawing& d : all) include_everything(d);
+    normal_length_ = normal_length(drawing.normals);
+    for (const DrawnNormal& n : drawing.normals) view_.include(n.at + normal_length_ * n.direction);
   }
 
   std::string draw() {
@@ -48,7 +55,7 @@ class Scene {
     for (std::size_t i = 0; i < drawing_.curves.size() && has_labels(); ++i)
       reserve(labels, drawing_.curves[i], on_page[i]);
     for (std::size_t i = 0; i < drawing_.curves.size(); ++i) {
-      if (show_polygons_) polygon(under, drawing_.curves[i].controls);
+      if (show_polygons_ && !drawing_.curves[i].controls.empty()) polygon(under, drawing_.curves[i].controls);
       paths(over, drawing_.curves[i], i);
     }
     for (std::size_t i = 0; i < drawing_.curves.size(); ++i) marks(over, labels, drawing_.curves[i], i);
@@ -80,14 +87,17 @@ class Scene {
       const CurveDrawing& c = drawing_.curves[0];
       std::size_t spans = 0;
       for (const auto& component : c.components) spans += component.segments.size();
-      subtitle_ =
-          titled(c.name, fmt::format("{}degree {}, {} control points, {} span{}", c.is_rational ? "rational, " : "",
-                                     c.degree, c.controls.size(), spans, spans == 1 ? "" : "s"));
+      subtitle_ = titled(c.name, !c.kind.empty() ? c.kind
+                                                 : fmt::format("{}degree {}, {} control points, {} span{}",
+                                                               c.is_rational ? "rational, " : "", c.degree,
+                                                               c.controls.size(), spans, spans == 1 ? "" : "s"));
       return;
     }
     if (patches == 1 && curves == 0) {
       const PatchDrawing& p = drawing_.patches[0];
-      if (p.count[0] == 0 && !p.is_solid)
+      if (!p.kind.empty())
+        subtitle_ = titled(p.name, p.kind);
+      else if (p.count[0] == 0 && !p.is_solid)
         subtitle_ = titled(p.name, fmt::format("{}Gregory patch, degree {} × {}", p.is_rational ? "rational " : "",
                                                p.degree[0], p.degree[1]));
       else
@@ -107,8 +117,8 @@ class Scene {
     count(solids, "solid", "solids");
   }
 
-  void include_everything() {
-    for (const CurveDrawing& c : drawing_.curves) {
+  void include_everything(const Drawing& drawing) {
+    for (const CurveDrawing& c : drawing.curves) {
       for (const auto& component : c.components)
         for (const auto& segment : component.segments)
           for (const Point3& p : segment) view_.include(p);
@@ -116,13 +126,11 @@ class Scene {
         for (const auto& mark : component.marks) view_.include(mark.at);
       if (show_polygons_) include(c.controls);
     }
-    for (const PatchDrawing& p : drawing_.patches) {
+    for (const PatchDrawing& p : drawing.patches) {
       for (const auto& piece : p.pieces)
         for (const Point3& v : piece.mesh.vertices) view_.include(v);
       for (const DrawnNet& net : p.nets) include(net.controls);
     }
-    normal_length_ = normal_length(drawing_.normals);
-    for (const DrawnNormal& n : drawing_.normals) view_.include(n.at + normal_length_ * n.direction);
   }
   void include(const std::vector<DrawnControl>& controls) {
     for (std::size_t i = 0; i < controls.size(); ++i) {
@@ -289,7 +297,9 @@ class Scene {
     for (std::size_t i = 0; i < curves && i < kMostNamed; ++i)
       out.add_line(shortened(drawing_.curves[i].name, 11.5, 150), line_colour(i), "2.4");
     if (curves > kMostNamed) out.add(fmt::format("and {} more", curves - kMostNamed), [](auto...) {});
-    if (curves > 0 && show_polygons_) out.add_line("control polygon", kFaint, "1.1", "5 3");
+    const bool has_polygons = std::any_of(drawing_.curves.begin(), drawing_.curves.end(),
+                                          [](const CurveDrawing& c) { return !c.controls.empty(); });
+    if (has_polygons && show_polygons_) out.add_line("control polygon", kFaint, "1.1", "5 3");
     if (curves > 0)
       out.add("knot", [](pugi::xml_node group, double left, double middle) {
         add(group, "path",
@@ -345,6 +355,14 @@ class Scene {
 
 }  // namespace
 
-std::string svg_scene(const Drawing& drawing, const PlotOptions& options) { return Scene(drawing, options).draw(); }
+std::string svg_scene(const Drawing& drawing, const PlotOptions& options) {
+  return Scene(drawing, {&drawing, 1}, options).draw();
+}
+
+std::vector<std::string> svg_scenes(const std::vector<Drawing>& drawings, const PlotOptions& options) {
+  std::vector<std::string> out;
+  for (const Drawing& drawing : drawings) out.push_back(Scene(drawing, drawings, options).draw());
+  return out;
+}
 
 }  // namespace patchproof
