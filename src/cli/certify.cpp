@@ -91,8 +91,12 @@ Result<Input> read_input(const std::string& path, Decimals decimals, [[maybe_unu
   }
   Result<ModelFile> file = read_model(path, decimals);
   if (!file) return file.error();
-  if (std::visit([](const auto& m) { return m.patches.empty() && m.gregory_patches.empty() && m.curves.empty(); },
-                 file->model))
+  if (std::visit(
+          [](const auto& m) {
+            return m.patches.empty() && m.gregory_patches.empty() && m.curves.empty() && m.gerbs_patches.empty() &&
+                   m.gerbs_curves.empty();
+          },
+          file->model))
     return Error{ErrorCode::wrong_count, path, "the model has neither patches nor curves: no joins to certify", ""};
   return Input(std::move(*file));
 }
@@ -110,7 +114,11 @@ std::optional<CurveFile> only_curves(const Input& input) {
     return curves_of(*cad);
   }
   const ModelFile& file = std::get<ModelFile>(input);
-  if (!std::visit([](const auto& m) { return m.patches.empty() && m.gregory_patches.empty(); }, file.model))
+  if (!std::visit(
+          [](const auto& m) {
+            return m.patches.empty() && m.gregory_patches.empty() && m.gerbs_patches.empty() && m.gerbs_curves.empty();
+          },
+          file.model))
     return std::nullopt;
   return curves_of(file);
 }

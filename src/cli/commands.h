@@ -13,6 +13,7 @@ namespace patchproof::cli {
 
 inline constexpr int kProven = 0, kRefuted = 1, kBadInput = 2, kUndecided = 3;
 
+void add_animate(CLI::App& app, int& exit_code);
 void add_certify(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);

@@ -69,7 +69,7 @@ template <ExactField T>
 Result<WrittenModel> written(const Model<T>& model, const std::string& to, int cells) {
   const std::string extension = extension_of(to);
   const bool is_json = extension == ".json" || extension.empty();
-  if (!model.gregory_patches.empty() && !is_json) {
+  if (!is_json && (!model.gregory_patches.empty() || !model.gerbs_patches.empty() || !model.gerbs_curves.empty())) {
     Result<SplinesOnly<T>> splines = with_splines_only(model, cells);
     if (!splines) return splines.error();
     Result<WrittenModel> out = written(splines->model, to, cells);

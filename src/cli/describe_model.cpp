@@ -11,6 +11,7 @@
 #include "cli/patch_smoothness.h"
 #include "patchproof/patch/denominator.h"
 #include "patchproof/patch/transfinite_expand.h"
+#include "patchproof/spline/gerbs_spline.h"
 #include "patchproof/spline/spline_domain.h"
 
 namespace patchproof::cli {
@@ -69,7 +70,8 @@ std::string knot_list(const KnotVector<T>& knots) {
   return list.find("…") == std::string::npos ? list : fmt::format("{} ({} distinct)", list, items.size());
 }
 
-// Degree, points, domain, knots, parts, dead points; `what` names a control point.
+// Degree, points, domain, knots, parts, dead points; `what` names a control
+// point.
 template <class T>
 std::string knot_lines(const KnotVector<T>& knots, const char* what, const std::string& head,
                        const std::string& indent) {
@@ -176,7 +178,8 @@ std::string seam_text(const BsplineCurve<T, 4>& curve) {
                                       : " with a corner");
 }
 
-// Readers have certified that w has no zero: on each component it has the sign that it has at the begin.
+// Readers have certified that w has no zero: on each component it has the sign
+// that it has at the begin.
 template <ExactField T>
 std::string sign_text(const BsplineCurve<T, 4>& curve) {
   bool positive = true, negative = true;
@@ -226,10 +229,48 @@ std::string describe_gregory(std::size_t index, const ModelGregoryPatch<T>& p) {
     return std::all_of(surface.net().begin(), surface.net().end(), [](const auto& h) { return h[3] == T(1); });
   };
   const bool polynomial = weights_are_one(p.patch.u_surface()) && weights_are_one(p.patch.v_surface());
-  return fmt::format("patch {}{}: NURBS boundary Gregory patch, {} edges, w > 0 everywhere\n", index, quoted(p.name),
-                     polynomial ? "polynomial" : "rational") +
+  return fmt::format(
+             "patch {}{}: NURBS boundary Gregory patch, {} edges, w > "
+             "0 everywhere\n",
+             index, quoted(p.name), polynomial ? "polynomial" : "rational") +
          knot_lines(p.patch.v_surface().knots(Direction::u), "row", "  u: ", "     ") +
          knot_lines(p.patch.u_surface().knots(Direction::v), "column", "  v: ", "     ");
+}
+
+std::string order_text(const BFunction& b) {
+  const auto one = [](const std::optional<int>& order) {
+    return order ? fmt::format("{}", *order) : std::string("all");
+  };
+  const std::string begin = one(b.order_at_begin()), end = one(b.order_at_end());
+  return fmt::format("B-function {}, of order {}{}", b.to_string(), begin, begin == end ? "" : " and " + end);
+}
+
+template <ExactField T>
+std::string gerbs_knot_line(const KnotVector<T>& knots, bool closed) {
+  std::vector<std::string> centres;
+  for (int i = 0; i < knots.control_count(); ++i) centres.push_back(brief(knots[i + 1]));
+  return fmt::format("{} local, centres {}{}\n", knots.control_count() - (closed ? 1 : 0), fmt::join(centres, " "),
+                     closed ? ", closed" : "");
+}
+
+template <ExactField T>
+std::string describe_gerbs(std::size_t index, const ModelGerbsCurve<T>& c) {
+  std::string text =
+      fmt::format("curve {}{}: GERBS, {}, {}\n  t: {}", index, quoted(c.name), c.dimension == 2 ? "plane" : "space",
+                  order_text(c.curve.b_function()), gerbs_knot_line(c.curve.knots(), c.curve.is_closed()));
+  const RoundingGuard guard;
+  for (const auto& b : smoothness(c.curve))
+    text += fmt::format("  t = {}: {}{}\n", brief(b.t), b.exact ? "" : "at least ",
+                        b.order == kOneFunction ? "C∞" : fmt::format("C{}", b.order));
+  return text;
+}
+
+template <ExactField T>
+std::string describe_gerbs(std::size_t index, const ModelGerbsPatch<T>& p) {
+  const auto &u = p.surface.axis(Direction::u), &v = p.surface.axis(Direction::v);
+  return fmt::format("patch {}{}: GERBS, {}{}\n  u: {}  v: {}", index, quoted(p.name),
+                     order_text(p.surface.b_function()), p.surface.is_exact() ? "" : ", transcendental",
+                     gerbs_knot_line(u.knots, u.closed), gerbs_knot_line(v.knots, v.closed));
 }
 
 // A solid of a file: its control patches are described as patches of the model.
@@ -253,8 +294,12 @@ std::string describe_all(const Model<T>& model) {
   std::string text;
   for (std::size_t i = 0; i < model.curves.size(); ++i) text += describe_curve(i, model.curves[i]);
   for (std::size_t i = 0; i < model.patches.size(); ++i) text += describe_patch(i, model.patches[i]);
+  for (std::size_t i = 0; i < model.gerbs_curves.size(); ++i)
+    text += describe_gerbs(model.curves.size() + i, model.gerbs_curves[i]);
+  for (std::size_t i = 0; i < model.gerbs_patches.size(); ++i)
+    text += describe_gerbs(model.patches.size() + i, model.gerbs_patches[i]);
   for (std::size_t i = 0; i < model.gregory_patches.size(); ++i)
-    text += describe_gregory(model.patches.size() + i, model.gregory_patches[i]);
+    text += describe_gregory(model.patches.size() + model.gerbs_patches.size() + i, model.gregory_patches[i]);
   for (std::size_t i = 0; i < model.solids.size(); ++i) text += describe_solid(i, model.solids[i], model);
   if (!model.joins.empty()) text += plural(model.joins.size(), "join") + " declared in the file\n";
   return text;

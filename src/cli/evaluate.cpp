@@ -155,13 +155,16 @@ Result<std::vector<Evaluation::Row>> evaluate_patch(const GregoryPatch<T>& patch
   if ((u == T(0) || u == T(1)) && (v == T(0) || v == T(1))) {
     if (k > 1)
       return Error{ErrorCode::unsupported, "--derivatives",
-                   "a Gregory patch has no second derivatives at its corners, only limits along the edges", o.at};
+                   "a Gregory patch has no second derivatives at its corners, "
+                   "only limits along the edges",
+                   o.at};
     const SurfaceFrame<T> s = frame(patch, u, v);
     std::vector<Evaluation::Row> out = rows(PartialDerivatives<T, 3>(1, 1, {s.point, s.dv, s.du, {}}), k);
     return out;
   }
   const GregorySpans spans = find_spans(patch, u, v, o.side(), o.side());
-  // Next to a corner rounded numbers lose what cancels there (and β its squares): exact values, rounded, stand for them.
+  // Next to a corner rounded numbers lose what cancels there (and β its
+  // squares): exact values, rounded, stand for them.
   const T reach = T(1) / T(1 << 20);
   const auto is_near = [&](const T& x) { return x < reach || T(1) - reach < x; };
   if (o.scalar != "rational" && is_near(u) && is_near(v))
@@ -195,7 +198,47 @@ Result<std::vector<Evaluation::Row>> evaluate_curve(const ModelCurve<T>& model, 
   return rows(derivatives_at(model.curve, *t, nearest_double(*t), o), model.dimension);
 }
 
-// All derivatives of total order up to the one asked, from the series of a solid.
+// GERBS have exact values where their parts have.
+std::optional<Error> without_exact_values(bool is_exact, const BFunction& b, const Options& o) {
+  if (is_exact || o.scalar != "rational") return std::nullopt;
+  return Error{ErrorCode::unsupported, "--scalar",
+               "the values of this GERBS are transcendental: --scalar interval "
+               "encloses them",
+               b.to_string()};
+}
+
+template <ExactField T>
+Result<std::vector<Evaluation::Row>> evaluate_curve(const ModelGerbsCurve<T>& model, const Options& o) {
+  const Result<T> t = parameter("t", o.at, model.curve.knots());
+  if (!t) return t.error();
+  if (auto error = without_exact_values(model.curve.is_exact(), model.curve.b_function(), o)) return *error;
+  const auto at = [&]<class R>(const R& x) {
+    return rows(patchproof::derivatives_at<R>(model.curve, *t, o.side(), x, o.derivatives), model.dimension);
+  };
+  if (o.scalar == "rational") return at(*t);
+  if (o.scalar == "double") return at(nearest_double(*t));
+  const RoundingGuard guard;
+  return at(embed<Interval>(*t));
+}
+
+template <ExactField T>
+Result<std::vector<Evaluation::Row>> evaluate_patch(const GerbsSurface<T, 4>& surface, const Options& o) {
+  const auto place = two_parameters(o, surface.knots(Direction::u), surface.knots(Direction::v));
+  if (!place) return place.error();
+  if (auto error = without_exact_values(surface.is_exact(), surface.b_function(), o)) return *error;
+  const auto& [u, v] = *place;
+  const auto at = [&]<class R>(const R& x, const R& y) {
+    return rows(partial_derivatives_at<R>(surface, {u, v}, {o.side(), o.side()}, x, y, o.derivatives, o.derivatives),
+                o.derivatives);
+  };
+  if (o.scalar == "rational") return at(u, v);
+  if (o.scalar == "double") return at(nearest_double(u), nearest_double(v));
+  const RoundingGuard guard;
+  return at(embed<Interval>(u), embed<Interval>(v));
+}
+
+// All derivatives of total order up to the one asked, from the series of a
+// solid.
 template <Ring R>
 std::vector<Evaluation::Row> rows(const Vec<PowerSeries<R, 3>, 3>& series, int order) {
   std::vector<Evaluation::Row> out;
@@ -212,7 +255,8 @@ std::vector<Evaluation::Row> rows(const Vec<PowerSeries<R, 3>, 3>& series, int o
   return out;
 }
 
-// The affine series at x of the piece of the solid that is its limit at the place.
+// The affine series at x of the piece of the solid that is its limit at the
+// place.
 template <Ring R, ExactField T>
 Vec<PowerSeries<R, 3>, 3> series_at(const TransfiniteMap<T, 3, 4>& map, const ParameterPlace<T, 3>& place,
                                     const std::array<R, 3>& x, int order) {
@@ -264,19 +308,24 @@ Result<Evaluation> evaluate_model(const Model<T>& model, const Options& o) {
     if (!rows) return rows.error();
     return Evaluation{"solid", *o.solid, std::move(*rows)};
   }
-  const std::size_t patches = model.patches.size(), all = patches + model.gregory_patches.size();
+  const std::size_t patches = model.patches.size(), gregory = patches + model.gerbs_patches.size(),
+                    all = gregory + model.gregory_patches.size(), plain_curves = model.curves.size(),
+                    curves = plain_curves + model.gerbs_curves.size();
   const bool curve = o.curve || (!o.patch && all == 0);
-  if (curve && !o.curve && model.curves.size() > 1)
+  if (curve && !o.curve && curves > 1)
     return Error{ErrorCode::usage, "evaluate",
-                 fmt::format("the model has curves 0 to {}: --curve says which", model.curves.size() - 1), ""};
+                 fmt::format("the model has curves 0 to {}: --curve says which", curves - 1), ""};
   const int index = curve ? o.curve.value_or(0) : o.patch.value_or(0);
-  if (const std::optional<Error> error = curve ? check_index("--curve", "curves", model.curves.size(), index)
-                                               : check_index("--patch", "patches", all, index))
+  if (const std::optional<Error> error =
+          curve ? check_index("--curve", "curves", curves, index) : check_index("--patch", "patches", all, index))
     return *error;
-  Result<std::vector<Evaluation::Row>> rows = curve ? evaluate_curve(model.curves[index], o)
-                                              : static_cast<std::size_t>(index) < patches
-                                                  ? evaluate_patch(model.patches[index].surface, o)
-                                                  : evaluate_patch(model.gregory_patches[index - patches].patch, o);
+  const std::size_t number = static_cast<std::size_t>(index);
+  Result<std::vector<Evaluation::Row>> rows =
+      curve              ? number < plain_curves ? evaluate_curve(model.curves[number], o)
+                                                 : evaluate_curve(model.gerbs_curves[number - plain_curves], o)
+                   : number < patches ? evaluate_patch(model.patches[number].surface, o)
+      : number < gregory ? evaluate_patch(model.gerbs_patches[number - patches].surface, o)
+                         : evaluate_patch(model.gregory_patches[number - gregory].patch, o);
   if (!rows) return rows.error();
   return Evaluation{curve ? "curve" : "patch", index, std::move(*rows)};
 }
@@ -316,8 +365,9 @@ int run(const Options& o) {
 
 void add_evaluate(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("evaluate", "points and derivatives of one patch, curve or solid, exactly or enclosed");
+  CLI::App* command = app.add_subcommand("evaluate",
+                                         "points and derivatives of one patch, "
+                                         "curve or solid, exactly or enclosed");
   command->add_option("model", o->model, "file to read")->required()->type_name("MODEL");
   CLI::Option* patch = command->add_option("--patch", o->patch, "which patch, from 0 [0]")->option_text("I");
   CLI::Option* curve =
@@ -326,7 +376,8 @@ void add_evaluate(CLI::App& app, int& exit_code) {
   command->add_option("--solid", o->solid, "which solid, from 0")->excludes(patch)->excludes(curve)->option_text("I");
   command
       ->add_option("--at", o->at,
-                   "parameters in the own domain of the patch, e.g. 1/3,0.25, of the curve or of the solid")
+                   "parameters in the own domain of the patch, e.g. 1/3,0.25, "
+                   "of the curve or of the solid")
       ->required()
       ->option_text("U,V|T|U,V,W");
   command->add_option("--derivatives", o->derivatives, "all derivatives up to this order [0]")

@@ -21,8 +21,9 @@ int run_info(const std::string& path, Decimals decimals) {
   std::visit(
       [&](const auto& model) {
         text += fmt::format("{}, {}{}, numbers in {}\n",
-                            plural(model.patches.size() + model.gregory_patches.size(), "patch", "patches"),
-                            plural(model.curves.size(), "curve", "curves"),
+                            plural(model.patches.size() + model.gerbs_patches.size() + model.gregory_patches.size(),
+                                   "patch", "patches"),
+                            plural(model.curves.size() + model.gerbs_curves.size(), "curve", "curves"),
                             model.units.empty() ? "" : ", units " + model.units,
                             std::holds_alternative<Model<Rational>>(file->model) ? "Q" : "Q(√d)");
         for (const std::string& note : file->notes) text += "note: " + note + "\n";

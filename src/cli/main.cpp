@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 everything proven or within, 1 something refuted or exceeds, 2 bad input or usage,\n"
       "3 undecided remains, 130 interrupted. Formats: docs/formats.md.");
   int exit_code = kProven;
+  add_animate(app, exit_code);
   add_certify(app, exit_code);
   add_evaluate(app, exit_code);
   add_fill(app, exit_code);

@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/tessellate_cad.h"
+#include "io/gerbs_splines.h"
 #include "patchproof/io/cad.h"
 #include "patchproof/io/mesh_files.h"
 #include "patchproof/io/read.h"
@@ -37,6 +38,14 @@ MeshRequest request_of(const Options& o) { return {o.chord, o.angle, o.max_trian
 
 template <ExactField T>
 Result<CertifiedMesh> mesh_of(const Model<T>& model, const Options& o, Source& source) {
+  if (has_gerbs(model)) {
+    SplineModel<T> splines = gerbs_to_splines(model);
+    if (!splines.outlined_patches.empty())
+      return Error{ErrorCode::unsupported, fmt::format("patch {}", splines.outlined_patches.front()),
+                   "no error can be proved yet for a GERBS that is no spline; plot draws it, without a bound", ""};
+    source.notes.insert(source.notes.end(), splines.notes.begin(), splines.notes.end());
+    return mesh_of(splines.model, o, source);
+  }
   if (o.method == "delaunay")
     return Error{ErrorCode::unsupported, "--method",
                  "delaunay is for trimmed faces of CAD files; for patches there are adaptive and regular", o.method};

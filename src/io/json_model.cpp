@@ -6,134 +6,13 @@
 #include <algorithm>
 #include <iterator>
 
-#include "json_spline.h"
+#include "json_model_rules.h"
 #include "text_cursor.h"
 
 namespace patchproof {
 namespace {
 
-enum Node {
-  kRoot = kSplineNodes,
-  kFormat,
-  kVersion,
-  kUnits,
-  kCurves,
-  kCurve,
-  kPatches,
-  kPatch,
-  kGregoryPatches,
-  kGregory,
-  kGregoryName,
-  kGregorySurface,
-  kCoons,
-  kTransfinite,
-  kGordon,
-  kAlong,
-  kCurveList,
-  kControlPoint,  // where a curve might stand
-  kParameters,
-  kParameter,
-  kSolids,
-  kSolid,
-  kSolidBlending,
-  kSolidControls,
-  kSolidPatch,
-  kJoins,
-  kJoin,
-  kSideA,
-  kSideB,
-  kSidePatch,
-  kSideEdge,
-  kReversed,
-};
-
-constexpr JsonRule kRules[] = {
-    {kNoParent, "", kRoot, JsonType::object},
-    {kRoot, "format", kFormat, JsonType::string, true},
-    {kRoot, "version", kVersion, JsonType::integer, true},
-    {kRoot, "units", kUnits, JsonType::string},
-    {kRoot, "curves", kCurves, JsonType::array},
-    {kRoot, "patches", kPatches, JsonType::array},
-    {kRoot, "gregory_patches", kGregoryPatches, JsonType::array},
-    {kRoot, "solids", kSolids, JsonType::array},
-    {kRoot, "joins", kJoins, JsonType::array},
-    {kCurves, "", kCurve, JsonType::object},
-    {kCurve, "name", kName, JsonType::string},
-    {kCurve, "degree", kDegree, JsonType::integer, true},
-    {kCurve, "knots", kKnots, JsonType::array},
-    {kCurve, "control_points", kRow, JsonType::array, true},
-    {kCurve, "weights", kWeightRow, JsonType::array},
-    {kCurve, "homogeneous", kHomogeneous, JsonType::boolean},
-    {kPatches, "", kPatch, JsonType::object},
-    {kPatch, "name", kName, JsonType::string},
-    {kPatch, "degree", kDegrees, JsonType::array},
-    {kPatch, "knots", kKnotVectors, JsonType::array},
-    {kPatch, "control_points", kNet, JsonType::array},
-    {kPatch, "weights", kWeightNet, JsonType::array},
-    {kGregoryPatches, "", kGregory, JsonType::object},
-    {kGregory, "name", kGregoryName, JsonType::string},
-    {kGregory, "u", kGregorySurface, JsonType::object, true},
-    {kGregory, "v", kGregorySurface, JsonType::object, true},
-    {kGregorySurface, "degree", kDegrees, JsonType::array},
-    {kGregorySurface, "knots", kKnotVectors, JsonType::array},
-    {kGregorySurface, "control_points", kNet, JsonType::array},
-    {kGregorySurface, "weights", kWeightNet, JsonType::array},
-    {kPatch, "coons", kCoons, JsonType::object},
-    {kCoons, "v_min", kCurve, JsonType::object, true},
-    {kCoons, "v_min", kControlPoint, JsonType::array},
-    {kCoons, "v_max", kCurve, JsonType::object, true},
-    {kCoons, "v_max", kControlPoint, JsonType::array},
-    {kCoons, "u_min", kCurve, JsonType::object, true},
-    {kCoons, "u_min", kControlPoint, JsonType::array},
-    {kCoons, "u_max", kCurve, JsonType::object, true},
-    {kCoons, "u_max", kControlPoint, JsonType::array},
-    {kCoons, "across_v_min", kCurve, JsonType::object},
-    {kCoons, "across_v_min", kControlPoint, JsonType::array},
-    {kCoons, "across_v_max", kCurve, JsonType::object},
-    {kCoons, "across_v_max", kControlPoint, JsonType::array},
-    {kCoons, "across_u_min", kCurve, JsonType::object},
-    {kCoons, "across_u_min", kControlPoint, JsonType::array},
-    {kCoons, "across_u_max", kCurve, JsonType::object},
-    {kCoons, "across_u_max", kControlPoint, JsonType::array},
-    {kPatch, "transfinite", kTransfinite, JsonType::object},
-    {kTransfinite, "along", kAlong, JsonType::string, true},
-    {kTransfinite, "degree", kDegree, JsonType::integer, true},
-    {kTransfinite, "knots", kKnots, JsonType::array},
-    {kTransfinite, "controls", kCurveList, JsonType::array, true},
-    {kPatch, "gordon", kGordon, JsonType::object},
-    {kGordon, "u", kParameters, JsonType::array, true},
-    {kGordon, "v", kParameters, JsonType::array, true},
-    {kGordon, "along_u", kCurveList, JsonType::array, true},
-    {kGordon, "along_v", kCurveList, JsonType::array, true},
-    {kCurveList, "", kCurve, JsonType::object},
-    {kCurveList, "", kControlPoint, JsonType::array},
-    {kControlPoint, "", kCoordinate, JsonType::number},
-    {kParameters, "", kParameter, JsonType::number},
-    {kDegrees, "", kDegree, JsonType::integer},
-    {kKnotVectors, "", kKnots, JsonType::array},
-    {kKnots, "", kKnot, JsonType::number},
-    {kNet, "", kRow, JsonType::array},
-    {kRow, "", kPoint, JsonType::array},
-    {kPoint, "", kCoordinate, JsonType::number},
-    {kWeightNet, "", kWeightRow, JsonType::array},
-    {kWeightRow, "", kWeight, JsonType::number},
-    {kSolids, "", kSolid, JsonType::object},
-    {kSolid, "name", kName, JsonType::string},
-    {kSolid, "transfinite", kSolidBlending, JsonType::object, true},
-    {kSolidBlending, "degree", kDegree, JsonType::integer, true},
-    {kSolidBlending, "knots", kKnots, JsonType::array},
-    {kSolidBlending, "controls", kSolidControls, JsonType::array, true},
-    {kSolidControls, "", kSolidPatch, JsonType::integer},
-    {kSolidControls, "", kControlPoint, JsonType::array},
-    {kJoins, "", kJoin, JsonType::object},
-    {kJoin, "a", kSideA, JsonType::object, true},
-    {kJoin, "b", kSideB, JsonType::object, true},
-    {kJoin, "reversed", kReversed, JsonType::boolean},
-    {kSideA, "patch", kSidePatch, JsonType::integer, true},
-    {kSideA, "edge", kSideEdge, JsonType::string, true},
-    {kSideB, "patch", kSidePatch, JsonType::integer, true},
-    {kSideB, "edge", kSideEdge, JsonType::string, true},
-};
+using namespace json_model;
 
 class ModelVisitor final : public JsonVisitor {
  public:
@@ -141,6 +20,10 @@ class ModelVisitor final : public JsonVisitor {
 
   std::optional<Error> begin(int node, const JsonWalker& walker) override {
     if (node < kSplineNodes) return current_->begin(node, walker);
+    if (node > kGerbs) {
+      current_ = &gerbs_.spline();
+      return gerbs_.begin(node, walker);
+    }
     switch (node) {
       case kPatch:
         patch_.start(2, walker);
@@ -148,6 +31,8 @@ class ModelVisitor final : public JsonVisitor {
         construction_.reset();
         break;
       case kGregory: gregory_ = {"", walker.here(), walker.pointer(), {}, {}}; break;
+      case kGerbsCurve: gerbs_.start(1, walker); break;
+      case kGerbsPatch: gerbs_.start(2, walker); break;
       case kGregorySurface:
         patch_.start(2, walker);
         current_ = &patch_;
@@ -184,10 +69,16 @@ class ModelVisitor final : public JsonVisitor {
 
   std::optional<Error> end(int node, const JsonWalker& walker) override {
     if (node < kSplineNodes) return current_->end(node, walker);
+    if (node > kGerbs) return gerbs_.end(node, walker, source_);
     switch (node) {
       case kRoot: return finish(walker);
       case kPatch: return finish_patch(walker);
       case kGregory: return sink_.add(gregory_);
+      case kGerbsCurve:
+      case kGerbsPatch:
+        enclosing_ = current_ = &patch_;
+        if (std::optional<Error> error = gerbs_.finish(walker)) return error;
+        return sink_.add(gerbs_.raw());
       case kGregorySurface:
         if (std::optional<Error> error = patch_.finish(source_, walker)) return error;
         (walker.key() == "u" ? gregory_.u_surface : gregory_.v_surface) = patch_.raw();
@@ -219,6 +110,7 @@ class ModelVisitor final : public JsonVisitor {
 
   std::optional<Error> leaf(int node, std::string_view text, const JsonWalker& walker) override {
     if (node < kSplineNodes) return current_->leaf(node, text, walker);
+    if (node > kGerbs) return gerbs_.leaf(node, text, walker);
     switch (node) {
       case kFormat:
         if (text != "patchproof-model")
@@ -304,8 +196,8 @@ class ModelVisitor final : public JsonVisitor {
   }
 
   std::optional<Error> finish(const JsonWalker& walker) {
-    const std::size_t patches = sink_.patch_count() + sink_.gregory_patch_count();
-    if (patches == 0 && sink_.curve_count() == 0)
+    const std::size_t patches = sink_.patch_count() + sink_.gregory_patch_count() + sink_.gerbs_patch_count();
+    if (patches == 0 && sink_.curve_count() == 0 && sink_.gerbs_count() == 0)
       return walker.error(ErrorCode::wrong_count, "the model has neither patches nor curves");
     if (largest_ && static_cast<std::size_t>(largest_->patch) >= patches)
       return source_.error(ErrorCode::bad_reference, largest_->text,
@@ -325,6 +217,7 @@ class ModelVisitor final : public JsonVisitor {
   JsonSpline* enclosing_ = &patch_;  // and which one after the curve
   std::optional<RawConstruction> construction_;
   RawGregory gregory_;
+  JsonGerbs gerbs_;
   std::optional<RawSolid> solid_;
   std::vector<RawSolid> solids_;  // delivered at the end: they refer to patches
   std::string list_;              // the key of the list last begun in it

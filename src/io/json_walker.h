@@ -37,7 +37,7 @@ struct JsonRule {
   bool required = false;
 };
 
-inline constexpr std::size_t kMaxRules = 128;
+inline constexpr std::size_t kMaxRules = 160;
 
 enum class UnknownKeys { refused, skipped };
 

@@ -85,6 +85,17 @@ bool ModelBuilder<T>::number(std::string_view text, const Pointer& pointer, T& v
 }
 
 template <ExactField T>
+bool ModelBuilder<T>::is_bounded(const Vec<T, 4>& p) {
+  return is_small(p[3]) && std::all_of(&p[0], &p[3], [&](const T& wx) { return is_small_with_weight(wx, p[3]); });
+}
+
+template <ExactField T>
+bool ModelBuilder<T>::number_at(std::string_view text, const std::string& pointer, T& value) {
+  return number(
+      text, [&]() -> const std::string& { return pointer; }, value);
+}
+
+template <ExactField T>
 std::optional<Error> ModelBuilder<T>::first_bad_number(const RawSpline& spline) {
   error_.reset();
   T ignored;
@@ -345,7 +356,7 @@ std::optional<ModelPatch<T>> ModelBuilder<T>::patch(const RawConstruction& raw) 
     return std::nullopt;
   }
   for (const Vec<T, 4>& p : made->surface.net())
-    if (!is_small(p[3]) || !std::all_of(&p[0], &p[3], [&](const T& wx) { return is_small_with_weight(wx, p[3]); })) {
+    if (!is_bounded(p)) {
       fail(ErrorCode::bad_number, raw.at, "the expanded patch is not below 2^1000 in size", "", raw.pointer);
       return std::nullopt;
     }

@@ -17,10 +17,13 @@ class ModelBuilder final : public ModelSink {
   std::optional<Error> add(const RawSpline& spline) override;
   std::optional<Error> add(const RawConstruction& construction) override;
   std::optional<Error> add(const RawGregory& patch) override;
+  std::optional<Error> add(const RawGerbs& curve_or_patch) override;
   std::optional<Error> add(const RawSolid& solid) override;
   std::optional<Error> first_bad_number(const RawSpline& spline) override;
   std::size_t patch_count() const override { return model_.patches.size(); }
   std::size_t gregory_patch_count() const override { return model_.gregory_patches.size(); }
+  std::size_t gerbs_count() const override { return model_.gerbs_patches.size() + model_.gerbs_curves.size(); }
+  std::size_t gerbs_patch_count() const override { return model_.gerbs_patches.size(); }
   std::size_t curve_count() const override { return model_.curves.size(); }
 
   // T = Rational: the error came from a root, so that the file should be read again over Q(√d).
@@ -31,6 +34,8 @@ class ModelBuilder final : public ModelSink {
   // Reads one number. False: error_ says why.
   template <class Pointer>
   bool number(std::string_view text, const Pointer& pointer, T& value);
+  static bool is_bounded(const Vec<T, 4>& point);  // with and without its weight
+  bool number_at(std::string_view text, const std::string& pointer, T& value);
   // These return nothing, or false, when error_ says why.
   std::optional<KnotVector<T>> knots(const RawSpline& spline, int direction);
   bool counts_fit(const RawSpline& spline, const std::array<int, 2>& needed);
@@ -50,6 +55,18 @@ class ModelBuilder final : public ModelSink {
   std::optional<ModelPatch<T>> patch(const RawSpline& raw);
   std::optional<Construction<T>> construction(const RawConstruction& raw);
   std::optional<ModelPatch<T>> patch(const RawConstruction& raw);
+  // Of GERBS.
+  struct Local {
+    std::vector<FunctionBasis<T>> bases;
+    std::vector<Vec<T, 4>> points;
+    int dimension = 3;
+  };
+  std::optional<Local> local(const RawLocal& raw, const std::vector<Local>& earlier);
+  std::optional<KnotVector<T>> gerbs_knots_of(const RawGerbs& raw, int direction);
+  bool add_gerbs_curve(const RawGerbs& raw, BFunction b, const std::vector<Local>& locals);
+  bool add_gerbs_patch(const RawGerbs& raw, BFunction b, const std::vector<Local>& locals);
+  bool add_blend(const RawGerbs& raw, BFunction b);
+  bool fail_at(const RawGerbs& raw, const Error& error);
   std::optional<typename ModelSolid<T>::Control> control(const RawSolid& raw, std::size_t k);
   bool fail(ErrorCode code, std::string_view at, std::string message, std::string_view values,
             std::string_view pointer);

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "io/drawing_gerbs.h"
 #include "io/drawing_patches.h"
+#include "io/gerbs_splines.h"
 #include "io/mesh_parts.h"
 #include "patchproof/io/mesh_files.h"
 #include "patchproof/mesh/tessellate_transfinite.h"
@@ -122,6 +124,9 @@ std::optional<PlotFormat> plot_format(std::string_view name) {
 
 template <ExactField T>
 Result<std::string> plot(const Model<T>& model, PlotFormat format, const PlotOptions& options) {
+  // Pictures show GERBS as they are; outlines are near enough for meshes.
+  if (has_gerbs(model) && (format != PlotFormat::svg || options.basis))
+    return plot(gerbs_to_splines(model).model, format, options);
   if (options.cells && *options.cells < 1)
     return Error{ErrorCode::usage, "--cells", "at least one cell in each span", std::to_string(*options.cells)};
   if (options.basis && format != PlotFormat::svg)
@@ -132,7 +137,7 @@ Result<std::string> plot(const Model<T>& model, PlotFormat format, const PlotOpt
     return Error{ErrorCode::usage, options.normals ? "--normals" : "--sections",
                  options.basis ? "graphs of functions have none" : "stl holds triangles only, no lines", ""};
   if (model.curves.empty() && model.patches.empty() && model.gregory_patches.empty() && model.solids.empty() &&
-      !options.curve && !options.patch && !options.solid)
+      !has_gerbs(model) && !options.curve && !options.patch && !options.solid)
     return Error{ErrorCode::usage, "plot", "there is nothing to draw: the model has no curves, patches or solids", ""};
   if (options.basis) {
     const auto panels = draw_basis(model, options);
@@ -140,7 +145,7 @@ Result<std::string> plot(const Model<T>& model, PlotFormat format, const PlotOpt
     return svg_basis(*panels, options);
   }
   if (format == PlotFormat::svg) {
-    const auto drawing = draw(model, options);
+    const auto drawing = has_gerbs(model) ? draw_with_gerbs(model, options) : draw(model, options);
     if (!drawing) return drawing.error();
     return svg_scene(*drawing, options);
   }

@@ -90,6 +90,32 @@ struct RawGregory {
   RawSpline u_surface, v_surface;
 };
 
+// A local curve or patch of a GERBS.
+struct RawLocal {
+  RawSpline spline;                     // in a trigonometric direction its degree is the number of harmonics
+  std::array<bool, 2> trigonometric{};  // in t, or in u and v
+  std::string_view same_as;             // the number of an earlier one of the same GERBS, instead; or ""
+  std::vector<std::string_view> map;    // twelve numbers, row by row, or none
+  std::string_view at;
+  std::string pointer;
+};
+
+// A GERBS curve (one direction) or patch (two), or the blend of two curves.
+struct RawGerbs {
+  int directions = 1;
+  std::string name;
+  std::string_view at;
+  std::string pointer;
+  std::string b_function;
+  std::array<std::vector<std::string_view>, 2> knots;  // t_1 … t_N of each direction
+  std::array<bool, 2> closed{};
+  std::vector<RawLocal> locals;             // of patches row by row
+  std::map<std::string, RawLocal> blended;  // "first" and "second"
+  std::string_view overlap;
+
+  bool is_blend() const { return !blended.empty(); }
+};
+
 // A solid made from patches of the model and points.
 struct RawSolid {
   struct Control {
@@ -110,6 +136,7 @@ class ModelSink {
   virtual std::optional<Error> add(const RawSpline& spline) = 0;
   virtual std::optional<Error> add(const RawConstruction& construction) = 0;
   virtual std::optional<Error> add(const RawGregory& patch) = 0;
+  virtual std::optional<Error> add(const RawGerbs& curve_or_patch) = 0;
   // After all patches.
   virtual std::optional<Error> add(const RawSolid& solid) = 0;
   // The first text among the numbers that is none: what a reader asks when a file ends inside a spline, because two
@@ -117,6 +144,8 @@ class ModelSink {
   virtual std::optional<Error> first_bad_number(const RawSpline& spline) = 0;
   virtual std::size_t patch_count() const = 0;
   virtual std::size_t gregory_patch_count() const = 0;
+  virtual std::size_t gerbs_count() const = 0;  // patches and curves
+  virtual std::size_t gerbs_patch_count() const = 0;
   virtual std::size_t curve_count() const = 0;
 
   std::vector<DeclaredJoin> joins;

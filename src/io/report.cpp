@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/io/report.h"
 
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "gerbs_splines.h"
 #include "patchproof/join/certify.h"
+#include "patchproof/join/gerbs_join.h"
 #include "report_curves.h"
 #include "report_profile.h"
 #include "report_surfaces.h"
@@ -29,8 +35,46 @@ ReportedSide reported_side(const BsplinePatch<T, 4>& patch, int index, const Iso
   return side;
 }
 
+// Patches that are outlines of GERBS surfaces: by their number, else null.
 template <ExactField T>
-void certify_into(Report& report, const Model<T>& model, const CertifyOptions& options) {
+using Outlined = std::vector<const GerbsSurface<T, 4>*>;
+
+// Joins at outlines are bounded with the surfaces themselves; over Q(√d) they
+// stay undecided.
+template <ExactField T>
+std::vector<Certificate> certify_all(const std::vector<const BsplinePatch<T, 4>*>& surfaces,
+                                     const std::vector<Join<T>>& joins, const Outlined<T>& outlined,
+                                     const CertifyOptions& options, const std::function<void(std::size_t)>& progress) {
+  const auto gerbs = [&](int surface) {
+    return static_cast<std::size_t>(surface) < outlined.size() ? outlined[surface] : nullptr;
+  };
+  std::vector<Join<T>> of_splines, of_gerbs;
+  for (const Join<T>& j : joins) (gerbs(j.patch_a) || gerbs(j.patch_b) ? of_gerbs : of_splines).push_back(j);
+  std::vector<Certificate> plain = certify_joins(surfaces, of_splines, options.request, options.jobs, progress),
+                           blended;
+  if constexpr (std::is_same_v<T, Rational>) {
+    std::vector<BlendedSide> sides;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) sides.push_back({surfaces[i], gerbs(static_cast<int>(i))});
+    blended = certify_blended_joins(sides, of_gerbs, options.request, options.jobs);
+  } else {
+    Certificate unknown;
+    unknown.gap = {0, std::numeric_limits<double>::infinity(), {}, false};
+    unknown.angle = {0, 180, {}, false};
+    unknown.plane_angle = {0, 90, {}, false};
+    unknown.rung = "taylor";
+    for (ExactClass* c : {&unknown.c0, &unknown.c1, &unknown.c2, &unknown.g1})
+      c->reason = "transcendental GERBS surfaces are bounded in models over Q only";
+    blended.assign(of_gerbs.size(), unknown);
+  }
+  std::vector<Certificate> out;
+  auto next_plain = plain.begin(), next_blended = blended.begin();
+  for (const Join<T>& j : joins)
+    out.push_back(std::move(gerbs(j.patch_a) || gerbs(j.patch_b) ? *next_blended++ : *next_plain++));
+  return out;
+}
+
+template <ExactField T>
+void certify_into(Report& report, const Model<T>& model, const CertifyOptions& options, const Outlined<T>& outlined) {
   for (const ModelPatch<T>& patch : model.patches) report.patch_names.push_back(patch.name);
   for (const ModelGregoryPatch<T>& patch : model.gregory_patches) report.patch_names.push_back(patch.name);
   ReportSurfaces<T> surfaces(model);
@@ -41,7 +85,8 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
                                    [&](int surface, EdgeName edge) { return surfaces.is_edge(surface, edge); });
   surfaces.rename(match);
   if (!model.joins.empty()) {
-    // The file says which edges meet; the lines inside patches are looked at all the same.
+    // The file says which edges meet; the lines inside patches are looked at
+    // all the same.
     std::erase_if(match.joins, [](const Join<T>& j) { return j.kind != JoinKind::knot_line; });
     std::vector<Join<T>> joins;
     for (const DeclaredJoin& d : model.joins)
@@ -71,12 +116,11 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
   report.collapsed = std::move(match.collapsed);
   std::function<void(std::size_t)> progress;
   if (options.progress) progress = [&](std::size_t done) { options.progress(done, match.joins.size()); };
-  std::vector<Certificate> certificates = certify_joins(patches, match.joins, options.request, options.jobs, progress);
+  std::vector<Certificate> certificates = certify_all(patches, match.joins, outlined, options, progress);
   report.joins.reserve(certificates.size());
-  for (std::size_t i = 0; i < certificates.size(); ++i) {
-    const Join<T>& join = match.joins[i];
+  const auto add = [&](const Join<T>& join, Certificate certificate) {
     ReportedJoin out;
-    out.id = static_cast<int>(i) + 1;
+    out.id = static_cast<int>(report.joins.size()) + 1;
     out.kind = join.kind;
     out.a = reported_side(*patches[join.patch_a], surfaces.patch_of(join.patch_a), join.line_a, join.pairing.a);
     out.b = reported_side(*patches[join.patch_b], surfaces.patch_of(join.patch_b), join.line_b, join.pairing.b);
@@ -86,10 +130,19 @@ void certify_into(Report& report, const Model<T>& model, const CertifyOptions& o
       for (std::size_t k = 0; k < join.pairing.a.size(); ++k)
         out.pairing_nodes.push_back({to_text(join.pairing.a[k]), to_text(join.pairing.b[k])});
     if (join.pairing.kind == PairingKind::rational_linear) out.pairing_ratio = to_text(join.pairing.ratio);
-    out.certificate = std::move(certificates[i]);
+    out.certificate = std::move(certificate);
     out.judgement = judge(out.certificate, request_at(options, join.kind));
     report.joins.push_back(std::move(out));
-  }
+  };
+  for (std::size_t i = 0; i < certificates.size(); ++i) add(match.joins[i], std::move(certificates[i]));
+  if constexpr (std::is_same_v<T, Rational>)
+    for (std::size_t p = 0; p < outlined.size(); ++p) {
+      if (!outlined[p]) continue;
+      for (InnerLine& line : certify_inner_lines(*outlined[p], options.request)) {
+        line.join.patch_a = line.join.patch_b = static_cast<int>(p);
+        add(line.join, std::move(line.certificate));
+      }
+    }
   if constexpr (std::is_same_v<T, Rational>) {
     std::vector<const GregoryPatch<Rational>*> gregory;
     for (const ModelGregoryPatch<T>& patch : model.gregory_patches) gregory.push_back(&patch.patch);
@@ -110,7 +163,7 @@ Outcome Report::outcome() const {
                                                     [](const ReportedEdge& edge) { return edge.kind == "unusable"; }));
   // A profile asks nothing of curves.
   const bool nothing = joins.empty() && (profile || !curves || curves->joins.empty());
-  const bool crowded = curves && curves->crowded;
+  const bool crowded = curves && (curves->crowded || curves->left_out);
   Outcome worst = asked && (nothing || blind || crowded) ? Outcome::undecided : Outcome::pass;
   for (const ReportedJoin& join : joins) {
     if (join.judgement.outcome == Outcome::fail) return Outcome::fail;
@@ -131,8 +184,24 @@ Report certify_model(const ModelFile& file, const CertifyOptions& options) {
   report.sha256 = file.sha256;
   report.decimals = file.decimals;
   report.notes = file.notes;
-  std::visit([&](const auto& model) { certify_into(report, model, options); }, file.model);
-  add_curve_joins(report, curves_of(file), options);
+  std::visit(
+      [&]<class T>(const Model<T>& model) {
+        if (!has_gerbs(model)) return certify_into(report, model, options, {});
+        SplineModel<T> splines = gerbs_to_splines(model);
+        report.notes.insert(report.notes.end(), splines.notes.begin(), splines.notes.end());
+        Outlined<T> outlined(splines.model.patches.size());
+        for (const std::size_t i : splines.outlined_patches) {
+          outlined[i] = &model.gerbs_patches[i - model.patches.size()].surface;
+          report.notes.push_back(fmt::format("patch {}: GERBS surface with {}, bounded by Taylor models", i,
+                                             outlined[i]->b_function().to_string()));
+        }
+        certify_into(report, splines.model, options, outlined);
+      },
+      file.model);
+  const CurveFile curves = curves_of(file);
+  report.notes.insert(report.notes.end(), curves.notes.begin() + static_cast<std::ptrdiff_t>(file.notes.size()),
+                      curves.notes.end());
+  add_curve_joins(report, curves, options);
   return report;
 }
 

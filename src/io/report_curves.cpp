@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report_curves.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 
+#include "gerbs_splines.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/spline/homogeneous.h"
 
@@ -70,6 +72,11 @@ void certify_into(Report& whole, const Together<T>& all, const CertifyOptions& o
     report.curves.push_back({all.file[i], all.curves[i]->name});
   }
   CurveEndMatch match = match_curve_ends(curves, options.match_length, tolerances);
+  const auto is_outline = [&](const EndOfCurve& end) { return all.curves[end.curve]->is_outline; };
+  report.left_out =
+      !beside_patches && std::any_of(all.curves.begin(), all.curves.end(), [](const auto* c) { return c->is_outline; });
+  std::erase_if(match.pairs, [&](const auto& pair) { return is_outline(pair.first) || is_outline(pair.second); });
+  std::erase_if(match.free, is_outline);
   report.match_length = match.length;
   if (!beside_patches) {
     whole.match_length = match.length;
@@ -113,7 +120,7 @@ CurveOfFile<Quadratic> in_quadratic(const CurveOfFile<Rational>& c) {
   return {c.name,
           BsplineCurve<Quadratic, 4>(KnotVector<Quadratic>::make_unchecked(c.curve.degree(), std::move(knots)),
                                      std::move(points)),
-          c.tolerance};
+          c.tolerance, c.is_outline};
 }
 
 // The square root in a file's numbers; 1: none.
@@ -147,7 +154,17 @@ CurveFile curves_of(const ModelFile& file) {
       [&]<class T>(const Model<T>& model) {
         out.units = model.units;
         Curves<T> curves;
-        for (const ModelCurve<T>& c : model.curves) curves.push_back({c.name, c.curve, {}});
+        if (!has_gerbs(model)) {
+          for (const ModelCurve<T>& c : model.curves) curves.push_back({c.name, c.curve, {}, false});
+        } else {
+          const SplineModel<T> splines = gerbs_to_splines(model);
+          for (const ModelCurve<T>& c : splines.model.curves) curves.push_back({c.name, c.curve, {}, false});
+          for (const std::size_t i : splines.outlined_curves) {
+            curves[i].is_outline = true;
+            out.notes.push_back(
+                fmt::format("curve {}: a GERBS curve that is not expanded to a spline; its ends are not looked at", i));
+          }
+        }
         out.curves = std::move(curves);
       },
       file.model);
@@ -166,7 +183,8 @@ void add_curve_joins(Report& report, const CurveFile& file, const CertifyOptions
   std::visit(
       [&]<class T>(const Curves<T>& curves) {
         if (curves.empty()) return;
-        report.curves = CurveReport{{file.file}, {}, {}, {}, false, 0, {}};
+        report.curves.emplace();
+        report.curves->files = {file.file};
         Together<T> all;
         append(all, curves, 0, file.is_cad);
         certify_into(report, all, options);

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "gerbs_splines.h"
 #include "patchproof/io/write.h"
 #include "patchproof/patch/gregory_approximate.h"
 #include "write_doubles.h"
@@ -35,6 +36,16 @@ struct Largest {
 template <ExactField T>
 Result<SplinesOnly<T>> with_splines_only(Model<T> model, int cells) {
   SplinesOnly<T> out{std::move(model), {}};
+  if (has_gerbs(out.model)) {
+    SplineModel<T> splines = gerbs_to_splines(out.model);
+    const auto refused = [](const char* what, std::size_t i) {
+      return Error{ErrorCode::unsupported, fmt::format("{} {}", what, i),
+                   "a GERBS that is no spline, or a very large one: only patchproof JSON holds it; plot draws it", ""};
+    };
+    if (!splines.outlined_patches.empty()) return refused("patch", splines.outlined_patches.front());
+    if (!splines.outlined_curves.empty()) return refused("curve", splines.outlined_curves.front());
+    out = {std::move(splines.model), std::move(splines.notes)};
+  }
   std::vector<ModelGregoryPatch<T>> patches = std::move(out.model.gregory_patches);
   out.model.gregory_patches.clear();
   if (patches.empty()) return out;
@@ -59,7 +70,8 @@ Result<SplinesOnly<T>> with_splines_only(Model<T> model, int cells) {
     return out;
   }
   std::string note = fmt::format(
-      "{} of {} approximated by B-spline patches of {} x {} cells, for positive weights: edges exact, points within "
+      "{} of {} approximated by B-spline patches of {} x {} cells, for "
+      "positive weights: edges exact, points within "
       "{}, ",
       changed, plural(patches.size(), "Gregory patch", "Gregory patches"), cells, cells, point.text());
   note += unbounded == patches.size() ? "normals without a bound" : "normals within " + angle.text() + " degrees";

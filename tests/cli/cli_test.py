@@ -14,11 +14,13 @@ from fractions import Fraction
 sys.dont_write_bytecode = True  # the sources may be read-only
 if len(sys.argv) < 3:
     sys.exit(__doc__)
+from animate_cases import Animate
 from command import CUP, DATA, EXAMPLES, KINK, PROGRAM, SPHERE, Command, run
 from convert_cases import Convert, Profiles
 from curve_cases import Curves
 from fill_cases import Fill
 from fit_cases import Fit
+from gerbs_cases import Gerbs
 from tessellate_cases import Tessellate
 
 

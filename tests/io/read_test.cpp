@@ -166,9 +166,10 @@ TEST(Read, TheExamplesOfTheDocumentation) {
     }
     begin = last;
   }
-  EXPECT_EQ(formats, (std::vector<std::string>{"patchproof-model", "patchproof-model", "patchproof-model",
-                                               "patchproof-model", "patchproof-model", "patchproof-curve-mesh",
-                                               "newell", "bpt", "bez", "g2", "gismo", "geomdl", "tinyspline", "obj"}));
+  EXPECT_EQ(formats,
+            (std::vector<std::string>{"patchproof-model", "patchproof-model", "patchproof-model", "patchproof-model",
+                                      "patchproof-model", "patchproof-model", "patchproof-curve-mesh", "newell", "bpt",
+                                      "bez", "g2", "gismo", "geomdl", "tinyspline", "obj"}));
 }
 
 struct Expected {

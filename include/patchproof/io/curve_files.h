@@ -33,6 +33,7 @@ struct CurveOfFile {
   std::string name;
   BsplineCurve<T, 4> curve;
   std::array<double, 2> tolerance{};  // of the file, at its begin and its end
+  bool is_outline = false;            // stands for a GERBS curve that is no spline: its ends are not looked at
 };
 
 struct CurveFile {

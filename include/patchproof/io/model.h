@@ -10,6 +10,7 @@
 
 #include "patchproof/patch/boundary.h"
 #include "patchproof/patch/bspline_patch.h"
+#include "patchproof/patch/gerbs_surface.h"
 #include "patchproof/patch/gregory_patch.h"
 #include "patchproof/patch/transfinite.h"
 #include "patchproof/scalar/parse_scalar.h"
@@ -46,6 +47,24 @@ struct ModelGregoryPatch {
   GregoryPatch<T> patch;
 };
 
+// A GERBS surface, with homogeneous points. As one of the model's patches its number comes after those of `patches` and before
+// those of Gregory patches.
+// ENSURES (for patches that a reader returns) no denominator of a local surface has a zero.
+template <ExactField T>
+struct ModelGerbsPatch {
+  std::string name;  // as in the file, or "" when it has none
+  GerbsSurface<T, 4> surface;
+};
+
+// A GERBS curve, with homogeneous points. As one of the model's curves its number comes after those of all others.
+// ENSURES (for curves that a reader returns) no denominator of a local curve has a zero.
+template <ExactField T>
+struct ModelGerbsCurve {
+  std::string name;  // as in the file, or "" when it has none
+  GerbsCurve<T, 4> curve;
+  int dimension = 3;  // 2: all local curves have z = 0
+};
+
 // A solid over a box of (u, v, w), mapped to homogeneous points. Read from a file it is Σ N_k(w) C_k(u,v) with patches of the
 // model and points as controls.
 template <ExactField T>
@@ -71,7 +90,9 @@ template <ExactField T>
 struct Model {
   std::vector<ModelPatch<T>> patches;
   std::vector<ModelGregoryPatch<T>> gregory_patches;
+  std::vector<ModelGerbsPatch<T>> gerbs_patches;
   std::vector<ModelCurve<T>> curves;
+  std::vector<ModelGerbsCurve<T>> gerbs_curves;
   std::vector<ModelSolid<T>> solids;
   std::vector<DeclaredJoin> joins;  // empty: joins are found from the geometry
   std::string units;                // "" when the file names none

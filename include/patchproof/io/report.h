@@ -118,7 +118,8 @@ struct CurveReport {
   std::vector<ReportedCurve> curves;
   std::vector<ReportedCurveJoin> joins;
   std::vector<EndOfCurve> free;
-  bool crowded = false;  // some pairs are left out: more than kMostPartners meet at one end
+  bool left_out = false;  // ends of GERBS curves that are no splines
+  bool crowded = false;   // some pairs are left out: more than kMostPartners meet at one end
   double match_length = 0;
   std::optional<double> curvature_tolerance;
 };
