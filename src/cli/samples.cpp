@@ -18,7 +18,10 @@ NumberText split_numbers(std::string name, std::string text) {
     line = line.substr(0, line.find('#'));
     std::vector<std::string_view> words;
     while (true) {
-      while (!line.empty() && separates(line.front())) line.remove_prefix(1);
+      int commas = 0;
+      for (; !line.empty() && separates(line.front()); line.remove_prefix(1)) commas += line.front() == ',';
+      // An empty field is a word that no number is.
+      if (commas > 1 || (commas == 1 && (words.empty() || line.empty()))) words.push_back(line.substr(0, 0));
       if (line.empty()) break;
       const auto end = std::find_if(line.begin(), line.end(), separates);
       words.push_back(line.substr(0, static_cast<std::size_t>(end - line.begin())));

@@ -64,7 +64,12 @@ Result<CertifiedMesh> mesh_of(const Model<T>& model, const Options& o, Source& s
     torn = torn || of_patch.size() > 1;
     for (auto& part : of_patch) parts.push_back(std::move(part));
   }
-  if (parts.empty()) return Error{ErrorCode::usage, "tessellate", "the model has no patches", ""};
+  if (parts.empty())
+    return Error{ErrorCode::unsupported, "tessellate",
+                 model.gregory_patches.empty()
+                     ? "the model has no patches"
+                     : "Gregory patches are not tessellated: convert writes B-spline patches near them",
+                 ""};
   if (torn)
     source.notes.push_back("patches that may jump at a knot are meshed in parts, and patches are counted by parts");
   std::vector<const BsplinePatch<T, 4>*> patches;
@@ -93,9 +98,11 @@ Writer writer_of(const std::string& extension) {
                                : nullptr;
 }
 
+bool is_single_precision(const std::string& extension) { return extension == ".stl" || extension == ".glb"; }
+
 // Formats of single precision move each vertex by at most this.
 double rounding_of(const CertifiedMesh& mesh, const std::string& extension) {
-  if (extension != ".stl" && extension != ".glb") return 0;
+  if (!is_single_precision(extension)) return 0;
   double largest = 0;
   for (const auto& v : mesh.vertices)
     for (const double x : v.c) largest = std::max(largest, std::abs(x));
@@ -173,18 +180,28 @@ int run(const Options& o) {
       return report_error({ErrorCode::usage, "tessellate", "would overwrite its input", to});
   if (auto error = check_request(request_of(o))) return report_error(*error);
   Source source;
-  const auto mesh = [&]() -> Result<CertifiedMesh> {
+  const auto made = [&](const Options& request) -> Result<CertifiedMesh> {
+    source = {};
     if (looks_like_cad(o.model)) {
       if (o.method != "auto" && o.method != "delaunay")
         return Error{ErrorCode::unsupported, "--method", "faces with trimming curves are meshed by delaunay", o.method};
       source.method = "delaunay";
-      return mesh_of_cad(o.model, request_of(o), source.units, source.notes);
+      return mesh_of_cad(o.model, request_of(request), source.units, source.notes);
     }
     Result<ModelFile> file = read_model(o.model, o.decimals);
     if (!file) return file.error();
     for (const std::string& note : file->notes) source.notes.push_back(note);
-    return std::visit([&](const auto& model) { return mesh_of(model, o, source); }, file->model);
-  }();
+    return std::visit([&](const auto& model) { return mesh_of(model, request, source); }, file->model);
+  };
+  // What the file's single precision moves comes on top: there is room for it, and more where that is not enough.
+  Options first = o;
+  if (is_single_precision(extension)) first.chord = 0.995 * o.chord;
+  Result<CertifiedMesh> mesh = made(first);
+  if (mesh && mesh->chord <= o.chord && mesh->chord + rounding_of(*mesh, extension) > o.chord) {
+    Options less = o;
+    less.chord = o.chord - 1.01 * rounding_of(*mesh, extension);
+    if (less.chord > 0) mesh = made(less);
+  }
   if (!mesh) {
     Error error = mesh.error();
     if (error.where.find(o.model) == std::string::npos)
@@ -218,7 +235,9 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       "Exit codes: 0 what was asked is proved, 1 it is not (the mesh is written all the same), 2 bad input or usage.");
   command->add_option("model", o->model, "model or CAD file to read")->required()->type_name("MODEL");
   command->add_option("out", o->out, "mesh to write: .stl, .obj, .ply, .glb or .vtu")->required()->type_name("OUT");
-  command->add_option("--chord", o->chord, "largest distance between surface and triangles, in units of the model")
+  command
+      ->add_option("--chord", o->chord,
+                   "largest distance between surface and triangles, in units of the model (of CAD files: mm)")
       ->required()
       ->option_text("LENGTH");
   command->add_option("--angle", o->angle, "largest angle between their normals [not asked]")->option_text("DEGREES");

@@ -38,7 +38,8 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
 NUMBER_LIBRARY = re.compile(r"^(gmp(xx)?\.h|mpfr\.h|mpfi\w*\.h|boost/.*|CGAL/.*)$")
 OCCT = re.compile(r"\.hxx$")
 OCCT_PLACES = {("src", "io"), ("tests", "io"), ("validation", "peers"), ("validation", "bench"),
-               ("validation", "verdicts"), ("validation", "shell"), ("examples", "cad")}
+               ("validation", "verdicts"), ("validation", "shell"), ("validation", "tessellation"),
+               ("examples", "cad")}
 FLOAT = re.compile(r"(?<![\w.])(?:\d[\d']*\.\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|\d+[eE][+-]?\d+"
                    r"|0[xX][\da-fA-F.]+[pP][+-]?\d+)[fFlL]?(?!\w)")
 EPSILON = re.compile(r"\b\w*(?:epsilon|EPSILON)\w*|\b(?:eps|EPS|kEps)\b")

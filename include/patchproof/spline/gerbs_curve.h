@@ -128,7 +128,7 @@ std::optional<Error> wrong_local_count(const KnotVector<K>& knots, bool closed, 
   const int needed = knots.control_count() - (closed ? 1 : 0);
   if (static_cast<int>(count) == needed) return std::nullopt;
   return Error{ErrorCode::wrong_count, "",
-               std::to_string(knots.knots().size()) + (closed ? " closed" : "") + " knots need " +
+               std::to_string(knots.knots().size() - 2) + (closed ? " closed" : "") + " knots need " +
                    std::to_string(needed) + " " + what,
                std::to_string(count)};
 }
