@@ -144,12 +144,18 @@ Error at_samples(const NumberText& text, const Error& error) {
           error.values};
 }
 
-// Readers refuse numbers of more than kMaxDigits characters.
+// Readers refuse numbers of more than kMaxDigits characters, and of 2^1000 or more.
 template <ExactField T>
 std::optional<Error> too_long(const std::vector<Vec<T, 3>>& points, const NumberText& text) {
   std::size_t longest = 0;
+  T limit(1);
+  for (int i = 0; i < 1000; ++i) limit = limit + limit;
   for (const Vec<T, 3>& p : points)
-    for (const T& x : p.c) longest = std::max(longest, to_text(x).size());
+    for (const T& x : p.c) {
+      if (!(x < limit && -limit < x))
+        return Error{ErrorCode::bad_number, text.file.path, "a control point is not below 2^1000 in size", to_text(x)};
+      longest = std::max(longest, to_text(x).size());
+    }
   if (longest <= static_cast<std::size_t>(kMaxDigits)) return std::nullopt;
   return Error{
       ErrorCode::unsupported, text.file.path,

@@ -156,6 +156,13 @@ class Fit(Command):
         self.expect(2, "fit", self.LOOP, out, "--degree", -1)
         self.assertFalse(out.exists())
 
+    def test_numbers_too_large_for_files_and_empty_fields_are_refused(self):
+        big = self.write("big.txt", "0 0\n1 1\n2e400 0\n3 1\n4 0\n")
+        self.expect_refusal("fit", big, self.dir / "out.json", names=["2^1000", "bad_number"])
+        for text in ("1,,2\n2,,3\n3,,4\n4,,5\n", ",1\n,2\n,3\n,4\n", "1,\n2,\n3,\n4,\n"):
+            self.expect_refusal("fit", self.write("empty.txt", text), self.dir / "out.json", names=["empty.txt:1"])
+        self.assertFalse((self.dir / "out.json").exists())
+
     def test_numbers_too_long_for_files_are_refused(self):
         samples = self.write("many.txt", "".join(f"{a * a % 97}.{a * 7919 % 1000003} {a}\n" for a in range(100)))
         self.expect_refusal("fit", samples, "-", "--controls", 60, "--parameters", "chord", names=["--double", "digits"])
