@@ -34,7 +34,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::visit(
         [](const auto& model) {
           using M = std::decay_t<decltype(model)>;
-          check(!model.patches.empty() || !model.curves.empty());
+          check(!model.patches.empty() || !model.curves.empty() || !model.gregory_patches.empty() ||
+                !model.gerbs_patches.empty() || !model.gerbs_curves.empty());
           const std::string text = write_model_json(model);
           const Result<ModelFile> back = read_model_text(text, "back.json");
           if (!back) {  // only fractions with more characters than a number may have are refused (io/write.h)
