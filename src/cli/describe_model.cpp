@@ -259,9 +259,19 @@ std::string describe_gerbs(std::size_t index, const ModelGerbsCurve<T>& c) {
       fmt::format("curve {}{}: GERBS, {}, {}\n  t: {}", index, quoted(c.name), c.dimension == 2 ? "plane" : "space",
                   order_text(c.curve.b_function()), gerbs_knot_line(c.curve.knots(), c.curve.is_closed()));
   const RoundingGuard guard;
-  for (const auto& b : smoothness(c.curve))
-    text += fmt::format("  t = {}: {}{}\n", brief(b.t), b.exact ? "" : "at least ",
+  for (const auto& b : smoothness(c.curve)) {
+    text += fmt::format("  t = {}: {}{}", brief(b.t), b.exact ? "" : "at least ",
                         b.order == kOneFunction ? "C∞" : fmt::format("C{}", b.order));
+    if (b.exact && b.jump) {  // points are exact
+      std::vector<std::string> jump;
+      for (int k = 0; k < c.dimension; ++k) {
+        const Interval& x = (*b.jump)[k];
+        jump.push_back(x.is_point() ? fmt::format("{}", x.inf()) : fmt::format("[{}, {}]", x.inf(), x.sup()));
+      }
+      text += fmt::format(", derivative {} jumps by ({})", b.order + 1, fmt::join(jump, ", "));
+    }
+    text += "\n";
+  }
   return text;
 }
 

@@ -10,7 +10,7 @@ class Gerbs(Command):
 
     def test_what_a_model_holds(self):
         text = self.expect(0, "info", self.MODEL).stdout.decode()
-        for line in ("1 patch, 2 curves, numbers in Q", "B-function polynomial(2), of order 2", "  t = 1: C2\n  t = 2: C2\n",
+        for line in ("1 patch, 2 curves, numbers in Q", "B-function polynomial(2), of order 2", "  t = 1: C2, derivative 3 jumps by (", "  t = 2: C2, derivative 3 jumps by (",
                      "B-function expo-rational(1,1,1,1/2), of order all", "  t = 1/2: C∞\n", "u: 2 local, centres 0 1 2, closed"):
             self.assertIn(line, text)
 
