@@ -260,11 +260,13 @@ CertifiedMesh Mesher<T>::collected() const {
       for (const auto& t : cell.triangles) {
         const std::array<int, 3> v{vertex(t[0]), vertex(t[1]), vertex(t[2])};
         for (const int n : t) out.gap = std::max(out.gap, offsets_[n]);
+        // Also of a triangle that is left out at a pole: its neighbour ends there.
+        for (int i = 0; i < 3; ++i)
+          if (v[i] != v[(i + 1) % 3] && shared_.is_free(t[i], t[(i + 1) % 3]))
+            out.free.push_back({v[i], v[(i + 1) % 3]});
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
         out.triangles.push_back(v);
         out.faces.push_back(static_cast<int>(k));
-        for (int i = 0; i < 3; ++i)
-          if (shared_.is_free(t[i], t[(i + 1) % 3])) out.free.push_back({v[i], v[(i + 1) % 3]});
       }
     }
     if (chord > 0)

@@ -72,3 +72,15 @@ class Tessellate(Command):
             self.assertFalse(out.exists())
         self.expect_refusal("tessellate", self.SPHERE, self.dir / "out.png", "--chord", 1, names=[".png", "usage"])
         self.expect_refusal("tessellate", self.dir / "none.json", out, "--chord", 1, names=["none.json", "cannot_open"])
+
+    def test_a_fan_at_a_pole_has_no_cracks(self):
+        """The triangle that is left out at the pole has a side on the border of the model: its neighbour ends there."""
+        net = [[[0, 0, 1]] * 3] + [[[1, j - 1, z] for j in range(3)] for z in (1, 0)]
+        model = self.write("pole.json", json.dumps({"format": "patchproof-model", "version": 1,
+                                                    "patches": [{"degree": [2, 2], "control_points": net}]}))
+        out = self.dir / "pole.ply"
+        text = self.expect(0, "tessellate", model, out, "--chord", 0.01).stdout.decode()
+        vertices, triangles = ply_triangles(out.read_bytes())
+        uses = edges_by_use(vertices, triangles)
+        self.assertEqual(set(uses), {1, 2})
+        self.assertIn(f"watertight: yes, but for {uses[1]} edges of triangles on free edges of the model\n", text)
