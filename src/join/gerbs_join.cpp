@@ -188,12 +188,14 @@ EnclosedMaximum located(const TrimmedJoin& trimmed, const BlendedSide& a, const 
 
 Certificate certify_blended_join(const BlendedSide& a, const BlendedSide& b, const Join<Rational>& join,
                                  const Request& request) {
-  const RoundingGuard guard;
   const TrimmedJoin trimmed{trimmed_side(a, join, false), trimmed_side(b, join, true)};
   Budget budget;
   budget.nodes = 500;
   budget.deadline = seconds_from_now(request.seconds_per_join);
-  const TrimmedBounds bounds = bound_trimmed(trimmed, budget);
+  const TrimmedBounds bounds = [&] {  // what follows in doubles is rounded to nearest
+    const RoundingGuard guard;
+    return bound_trimmed(trimmed, budget);
+  }();
   Proved proved = proved_by_closing(a, b, join);
   if (proved.order < 1)
     if (const Proved also = proved_by_make(a, b, join); also.order >= proved.order) proved = also;
