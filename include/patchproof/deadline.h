@@ -5,12 +5,16 @@
 //   const DeadlineScope scope(std::chrono::steady_clock::now() + std::chrono::seconds(1));
 //   try { … } catch (const deadline_passed&) { … undecided … }
 //
+// A StopScope is a limit that somebody else sets off: a flag that another thread may raise at any time.
+//
 // ENSURES  (1) check_deadline throws once any limit of a scope alive in this thread has passed, and from then on as long as
-//          that scope lives;  (2) a limit of n checks lets n pass, on every machine the same.
+//          that scope lives;  (2) a limit of n checks lets n pass, on every machine the same;  (3) with the flag of a StopScope
+//          raised every deadline of its thread has passed, and of the threads that for_each_item (parallel.h) uses under it.
 // COST     a nanosecond without a scope; with a time limit, what the clock costs.
 // TEST     tests/join/deadline_test.cpp
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
@@ -20,6 +24,25 @@ namespace patchproof {
 class deadline_passed : public std::runtime_error {
  public:
   deadline_passed() : std::runtime_error("the time is up") {}
+};
+
+// The innermost flag counts. REQUIRES that it outlives the scope. nullptr: none.
+class StopScope {
+ public:
+  explicit StopScope(const std::atomic<bool>* flag) : outer_(innermost()) { innermost() = flag; }
+  StopScope(const StopScope&) = delete;
+  StopScope& operator=(const StopScope&) = delete;
+  ~StopScope() { innermost() = outer_; }
+
+  static const std::atomic<bool>* flag() { return innermost(); }
+  static bool is_raised() { return innermost() != nullptr && innermost()->load(std::memory_order_relaxed); }
+
+ private:
+  static const std::atomic<bool>*& innermost() {
+    static thread_local const std::atomic<bool>* flag = nullptr;
+    return flag;
+  }
+  const std::atomic<bool>* outer_;
 };
 
 class DeadlineScope {
@@ -36,7 +59,7 @@ class DeadlineScope {
   long checks() const { return checks_; }
 
   static bool has_passed() {
-    bool passed = false;
+    bool passed = StopScope::is_raised();
     for (DeadlineScope* scope = innermost(); scope; scope = scope->outer_) passed = scope->look() || passed;
     return passed;
   }

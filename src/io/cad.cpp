@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/io/cad.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 
 #include "edge_class.h"
+#include "patchproof/parallel.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "report_curves.h"
 #include "report_profile.h"
@@ -97,39 +94,32 @@ Report certify_cad(const CadModel& model, const CertifyOptions& options) {
   const std::vector<Pair> pairs = pairs_of(model);
   report.joins.resize(pairs.size());
   std::atomic<std::size_t> done{0};
-  // Otherwise more jobs than processors make TBB talk on standard error.
-  const tbb::global_control threads(
-      tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(options.jobs > 0 ? options.jobs : std::max(1, tbb::this_task_arena::max_concurrency())));
-  tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
-      const auto [e, a, b] = pairs[i];
-      const CadEdge& edge = model.edges[e];
-      // Across a smooth edge one face lies to the left and the other to the right, under equal normals.
-      const auto side = [&](const CadUse& use, bool flipped) {
-        return TrimmedSide{&model.faces[use.face].surface, use.parameters, flipped};
-      };
-      ReportedJoin& out = report.joins[i];
-      const TrimmedJoin join{side(*a, !a->forward), side(*b, b->forward)};
-      out.id = static_cast<int>(i) + 1;
-      out.kind = edge.kind == CadEdgeKind::seam ? JoinKind::seam : JoinKind::trimmed;
-      out.a = reported_side(*a, edge.label);
-      out.b = reported_side(*b, edge.label);
-      const auto deadline = seconds_from_now(options.request.seconds_per_join);  // of both together
-      out.certificate = certify_trimmed(join, options.request);
-      out.approximation = {a->approximation.length + b->approximation.length,
-                           a->approximation.degrees + b->approximation.degrees};
-      const Certificate wide = widened(out.certificate, out.approximation);
-      out.edge_class = edge_class_of(join, wide, options.smooth_below, deadline);
-      out.judgement = judge_edge(wide, *out.edge_class, options.smooth_below, request_at(options, out.kind));
-      if (out.judgement.outcome == Outcome::undecided && out.approximation.length > 0 &&
-          judge_edge(out.certificate, *out.edge_class, options.smooth_below, request_at(options, out.kind)).outcome !=
-              Outcome::undecided)
-        out.judgement.reason += "; without what the approximation of a surface may add it would be decided";
-      const std::size_t now = ++done;
-      if (options.progress) options.progress(now, pairs.size());
-    });
+  for_each_item(options.jobs, pairs.size(), [&](std::size_t i) {
+    const auto [e, a, b] = pairs[i];
+    const CadEdge& edge = model.edges[e];
+    // Across a smooth edge one face lies to the left and the other to the right, under equal normals.
+    const auto side = [&](const CadUse& use, bool flipped) {
+      return TrimmedSide{&model.faces[use.face].surface, use.parameters, flipped};
+    };
+    ReportedJoin& out = report.joins[i];
+    const TrimmedJoin join{side(*a, !a->forward), side(*b, b->forward)};
+    out.id = static_cast<int>(i) + 1;
+    out.kind = edge.kind == CadEdgeKind::seam ? JoinKind::seam : JoinKind::trimmed;
+    out.a = reported_side(*a, edge.label);
+    out.b = reported_side(*b, edge.label);
+    const auto deadline = seconds_from_now(options.request.seconds_per_join);  // of both together
+    out.certificate = certify_trimmed(join, options.request);
+    out.approximation = {a->approximation.length + b->approximation.length,
+                         a->approximation.degrees + b->approximation.degrees};
+    const Certificate wide = widened(out.certificate, out.approximation);
+    out.edge_class = edge_class_of(join, wide, options.smooth_below, deadline);
+    out.judgement = judge_edge(wide, *out.edge_class, options.smooth_below, request_at(options, out.kind));
+    if (out.judgement.outcome == Outcome::undecided && out.approximation.length > 0 &&
+        judge_edge(out.certificate, *out.edge_class, options.smooth_below, request_at(options, out.kind)).outcome !=
+            Outcome::undecided)
+      out.judgement.reason += "; without what the approximation of a surface may add it would be decided";
+    const std::size_t now = ++done;
+    if (options.progress) options.progress(now, pairs.size());
   });
   add_curve_joins(report, curves_of(model), options);
   return report;

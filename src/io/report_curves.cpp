@@ -2,13 +2,12 @@
 #include "report_curves.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 
 #include "gerbs_splines.h"
+#include "patchproof/parallel.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/spline/homogeneous.h"
 
@@ -89,23 +88,20 @@ void certify_into(Report& whole, const Together<T>& all, const CertifyOptions& o
   const Request& asked = options.profile ? options.given : options.request;
   const CurveTolerances tolerance{asked.gap_tolerance, asked.angle_tolerance, options.curvature_tolerance};
   std::atomic<std::size_t> done{0};
-  tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, match.pairs.size(), [&](std::size_t i) {
-      const auto& [a, b] = match.pairs[i];
-      ReportedCurveJoin& out = report.joins[i];
-      out.id = static_cast<int>(i) + 1;
-      out.a = reported_side(*all.curves[a.curve], a);
-      out.b = reported_side(*all.curves[b.curve], b);
-      out.point = end_point(*curves[a.curve], a.end);
-      out.certificate = certify_curve_join<T>({curves[a.curve], a.end}, {curves[b.curve], b.end});
-      if (all.is_cad[a.curve] && all.is_cad[b.curve])
-        out.edge_class = class_of(out.certificate.angle, options.smooth_below);
-      out.within = class_within(out.certificate, tolerance);
-      out.judgement = judge_join(out, options, beside_patches);
-      const std::size_t now = ++done;
-      if (options.progress) options.progress(now, match.pairs.size());
-    });
+  for_each_item(options.jobs, match.pairs.size(), [&](std::size_t i) {
+    const auto& [a, b] = match.pairs[i];
+    ReportedCurveJoin& out = report.joins[i];
+    out.id = static_cast<int>(i) + 1;
+    out.a = reported_side(*all.curves[a.curve], a);
+    out.b = reported_side(*all.curves[b.curve], b);
+    out.point = end_point(*curves[a.curve], a.end);
+    out.certificate = certify_curve_join<T>({curves[a.curve], a.end}, {curves[b.curve], b.end});
+    if (all.is_cad[a.curve] && all.is_cad[b.curve])
+      out.edge_class = class_of(out.certificate.angle, options.smooth_below);
+    out.within = class_within(out.certificate, tolerance);
+    out.judgement = judge_join(out, options, beside_patches);
+    const std::size_t now = ++done;
+    if (options.progress) options.progress(now, match.pairs.size());
   });
 }
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/join/certify.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <atomic>
 
 #include "join/witness.h"
 #include "patchproof/deadline.h"
 #include "patchproof/join/filter.h"
+#include "patchproof/parallel.h"
 #include "patchproof/scalar/parse_scalar.h"
 #include "patchproof/scalar/quadratic.h"
 
@@ -362,15 +359,10 @@ std::vector<Certificate> certify_joins(const std::vector<const BsplinePatch<T, 4
                                        const std::function<void(std::size_t)>& progress) {
   std::vector<Certificate> certificates(joins.size());
   std::atomic<std::size_t> done{0};
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    jobs > 0 ? jobs : std::max(1, tbb::this_task_arena::max_concurrency()));
-  tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, joins.size(), [&](std::size_t i) {
-      certificates[i] = certify_join(*patches[joins[i].patch_a], *patches[joins[i].patch_b], joins[i], request);
-      const std::size_t now = ++done;
-      if (progress) progress(now);
-    });
+  for_each_item(jobs, joins.size(), [&](std::size_t i) {
+    certificates[i] = certify_join(*patches[joins[i].patch_a], *patches[joins[i].patch_b], joins[i], request);
+    const std::size_t now = ++done;
+    if (progress) progress(now);
   });
   return certificates;
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/join/gregory_proof.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 
 #include "gregory_regularity.h"
+#include "patchproof/parallel.h"
 #include "patchproof/scalar/parse_scalar.h"
 
 namespace patchproof {
@@ -170,12 +167,7 @@ GregoryProof prove_patch(const GregoryPatch<Rational>& patch, int max_boxes) {
 
 std::vector<GregoryProof> prove_patches(const std::vector<const GregoryPatch<Rational>*>& patches, int jobs) {
   std::vector<GregoryProof> out(patches.size());
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    jobs > 0 ? jobs : std::max(1, tbb::this_task_arena::max_concurrency()));
-  tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, patches.size(), [&](std::size_t i) { out[i] = prove_patch(*patches[i]); });
-  });
+  for_each_item(jobs, patches.size(), [&](std::size_t i) { out[i] = prove_patch(*patches[i]); });
   return out;
 }
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/mesh/fill_faces.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <concepts>
 #include <functional>
 #include <type_traits>
 
+#include "patchproof/parallel.h"
 #include "patchproof/scalar/interval.h"
 #include "patchproof/scalar/tracked.h"
 
@@ -130,13 +127,10 @@ Result<GregoryPatch<R>> fill_face(const MeshTopology& topology, const std::vecto
 }
 
 // The first error in the order of the items.
-std::optional<Error> for_each_item(std::size_t count, int jobs,
-                                   const std::function<std::optional<Error>(std::size_t)>& item) {
+std::optional<Error> first_error(std::size_t count, int jobs,
+                                 const std::function<std::optional<Error>(std::size_t)>& item) {
   std::vector<std::optional<Error>> errors(count);
-  const int threads = jobs > 0 ? jobs : std::max(1, tbb::this_task_arena::max_concurrency());
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { errors[i] = item(i); }); });
+  for_each_item(jobs, count, [&](std::size_t i) { errors[i] = item(i); });
   for (std::optional<Error>& error : errors)
     if (error) return std::move(error);
   return std::nullopt;
@@ -171,7 +165,7 @@ Result<FilledMesh<R>> fill_faces(const CurveMesh& mesh, const MeshTopology& topo
       }
     return std::nullopt;
   };
-  if (std::optional<Error> error = for_each_item(mesh.edges.size(), jobs, edge)) return std::move(*error);
+  if (std::optional<Error> error = first_error(mesh.edges.size(), jobs, edge)) return std::move(*error);
 
   std::vector<std::optional<GregoryPatch<R>>> patches(mesh.faces.size());
   const auto face = [&](std::size_t f) -> std::optional<Error> {
@@ -185,7 +179,7 @@ Result<FilledMesh<R>> fill_faces(const CurveMesh& mesh, const MeshTopology& topo
     patches[f] = std::move(*patch);
     return std::nullopt;
   };
-  if (std::optional<Error> error = for_each_item(mesh.faces.size(), jobs, face)) return std::move(*error);
+  if (std::optional<Error> error = first_error(mesh.faces.size(), jobs, face)) return std::move(*error);
   for (std::optional<GregoryPatch<R>>& patch : patches) out.patches.push_back(std::move(*patch));
   return out;
 }

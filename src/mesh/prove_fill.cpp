@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/mesh/prove_fill.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 
 #include "patchproof/join/certify.h"
+#include "patchproof/parallel.h"
 
 namespace patchproof {
 namespace {
@@ -70,15 +67,10 @@ FillProof prove_fill(const CurveMesh& mesh, const MeshTopology& topology,
   FillProof out;
   out.joins = mesh_joins(mesh, topology);
   out.certificates.resize(out.joins.size());
-  const int threads = jobs > 0 ? jobs : std::max(1, tbb::this_task_arena::max_concurrency());
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, out.joins.size(), [&](std::size_t i) {
-      const MeshJoin& j = out.joins[i];
-      out.certificates[i] = certify_join(carrier(patches[j.join.patch_a], j.edge_a),
-                                         carrier(patches[j.join.patch_b], j.edge_b), j.join, request);
-    });
+  for_each_item(jobs, out.joins.size(), [&](std::size_t i) {
+    const MeshJoin& j = out.joins[i];
+    out.certificates[i] = certify_join(carrier(patches[j.join.patch_a], j.edge_a),
+                                       carrier(patches[j.join.patch_b], j.edge_b), j.join, request);
   });
   std::vector<const GregoryPatch<Rational>*> all;
   for (const GregoryPatch<Rational>& patch : patches) all.push_back(&patch);

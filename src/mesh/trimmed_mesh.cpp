@@ -2,9 +2,6 @@
 #include "patchproof/mesh/trimmed_mesh.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +11,7 @@
 #include <set>
 
 #include "patchproof/mesh/adaptive_mesh.h"
+#include "patchproof/parallel.h"
 #include "trimmed_face.h"
 
 namespace patchproof {
@@ -62,10 +60,7 @@ class Builder {
 
  private:
   void in_parallel(std::size_t count, const std::function<void(std::size_t)>& item) const {
-    const int threads = request_.jobs > 0 ? request_.jobs : std::max(1, tbb::this_task_arena::max_concurrency());
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, item); });
+    for_each_item(request_.jobs, count, item);
   }
 
   // Which ends of edges are one vertex: those that follow each other in the loop of a face.

@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 MAX_LINES = 400
+LONGER = {"include/patchproof/c_api.h": 600}  # one header for whoever binds to it; docs/decisions.md
 
 # room: the rooms it may include, besides itself
 BELOW_IO = ["base", "scalar", "spline", "patch", "join", "mesh"]
@@ -29,7 +30,7 @@ MAY_INCLUDE = {
     "c_api": BELOW_IO + ["io"],
     "cli": BELOW_IO + ["io", "c_api"],
 }
-ROOM_OF_ROOT_FILE = {"error": "base", "contract": "base", "deadline": "base", "vec": "base", "instruction_set": "base", "c_api": "c_api"}
+ROOM_OF_ROOT_FILE = {"error": "base", "contract": "base", "deadline": "base", "parallel": "base", "vec": "base", "instruction_set": "base", "c_api": "c_api"}
 TEMPLATE_ROOMS = ["spline", "patch", "join"]
 SCANNED = ["include", "src", "kernels", "tests", "examples", "validation", "cmake", "docs", ".ci"]
 SOURCE = {".h", ".hpp", ".cpp", ".c", ".py", ".cmake"}
@@ -106,11 +107,12 @@ class House:
 
     def check_form(self, path, text):
         lines = text.splitlines()
-        if len(lines) > MAX_LINES:
-            self.report("length", path, MAX_LINES + 1, f"{len(lines)} lines; at most {MAX_LINES}")
+        most = LONGER.get(path.relative_to(self.root).as_posix(), MAX_LINES)
+        if len(lines) > most:
+            self.report("length", path, most + 1, f"{len(lines)} lines; at most {most}")
         if path.suffix in {".h", ".hpp", ".cpp", ".c", ".py"}:
             first = [line for line in lines[:2] if not line.startswith("#!")][:1]
-            if not first or first[0].lstrip("/# ") != "SPDX-License-Identifier: Apache-2.0":
+            if not first or first[0].strip("/*# ") != "SPDX-License-Identifier: Apache-2.0":
                 self.report("header", path, 1, "the licence line is missing")
         if path.suffix in {".h", ".hpp"} and "\n#pragma once\n" not in text:
             self.report("header", path, 1, "#pragma once is missing")

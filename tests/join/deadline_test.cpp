@@ -6,6 +6,7 @@
 
 #include "patchproof/join/certify.h"
 #include "patchproof/join/trimmed_join.h"
+#include "patchproof/parallel.h"
 #include "support/broken_joins.h"
 #include "support/certificates.h"
 #include "support/scalars.h"
@@ -32,6 +33,54 @@ TEST(Deadline, Law2_ChecksAreCounted) {
   for (int i = 0; i < 3; ++i) EXPECT_NO_THROW(check_deadline());
   for (int i = 0; i < 3; ++i) EXPECT_THROW(check_deadline(), deadline_passed);
   EXPECT_EQ(scope.checks(), 6);
+}
+
+TEST(Deadline, Law3_ARaisedFlagStopsItsThreadAndTheThreadsItUses) {
+  std::atomic<bool> flag{false};
+  {
+    const StopScope scope(&flag);
+    EXPECT_FALSE(has_deadline_passed());
+    const StopScope none(nullptr);  // the innermost counts
+    flag = true;
+    EXPECT_FALSE(has_deadline_passed());
+  }
+  {
+    const StopScope scope(&flag);
+    EXPECT_THROW(check_deadline(), deadline_passed);
+    EXPECT_TRUE(DeadlineScope::has_passed());
+    EXPECT_THROW(for_each_item(2, 5, [](std::size_t) { FAIL() << "an item began"; }), stop_requested);
+  }
+  EXPECT_FALSE(has_deadline_passed());
+
+  flag = false;
+  const StopScope scope(&flag);
+  std::atomic<int> begun{0}, stopped{0};
+  EXPECT_THROW(for_each_item(2, 1000,
+                             [&](std::size_t) {
+                               if (++begun == 10) flag = true;
+                               if (has_deadline_passed()) ++stopped;
+                             }),
+               stop_requested);
+  EXPECT_GE(stopped, 1);
+  EXPECT_LT(begun, 1000);
+}
+
+TEST(ForEachItem, Law1_EveryItemOnce) {
+  for (const int jobs : {0, 1, 3}) {
+    std::vector<std::atomic<int>> calls(1000);
+    for_each_item(jobs, calls.size(), [&](std::size_t i) { ++calls[i]; });
+    for (const auto& n : calls) EXPECT_EQ(n, 1);
+  }
+  for_each_item(0, 0, [](std::size_t) { FAIL(); });
+  EXPECT_THROW(for_each_item(-1, 1, [](std::size_t) {}), contract_error);
+}
+
+TEST(ForEachItem, Law2_WhatAnItemThrowsComesOut) {
+  EXPECT_THROW(for_each_item(2, 100,
+                             [](std::size_t i) {
+                               if (i == 7) throw std::out_of_range("7");
+                             }),
+               std::out_of_range);
 }
 
 // Two polynomials of degree 20 with a common factor of degree 10.
