@@ -37,7 +37,7 @@
 #else
 #define PATCHPROOF_API
 #endif
-/* clang-format off: continuation lines of declarations are short here */
+/* clang-format off */
 #ifdef __cplusplus
 #define PATCHPROOF_NOEXCEPT noexcept
 extern "C" {
@@ -87,8 +87,8 @@ enum {
    *  second free is answered with PATCHPROOF_FREED_HANDLE. Without it that is undefined, as with free(). */
   PATCHPROOF_KEEP_FREED_HANDLES = 1
 };
-PATCHPROOF_API patchproof_status patchproof_context_create(uint32_t flags,
-                                                           patchproof_context** out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_context_create(
+    uint32_t flags, patchproof_context** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_context_free(patchproof_context* context) PATCHPROOF_NOEXCEPT;
 
 /** The texts are those of the last call with this context, and live until the next one. */
@@ -100,8 +100,8 @@ typedef struct {
   patchproof_text message; /**< one sentence */
   patchproof_text values;  /**< the offending values, as read */
 } patchproof_error;
-PATCHPROOF_API patchproof_status patchproof_last_error(const patchproof_context* context,
-                                                       patchproof_error* out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_last_error(
+    const patchproof_context* context, patchproof_error* out) PATCHPROOF_NOEXCEPT;
 /** All of it in one line, "" after PATCHPROOF_OK. Never NULL. */
 PATCHPROOF_API const char* patchproof_error_text(const patchproof_context* context) PATCHPROOF_NOEXCEPT;
 
@@ -120,13 +120,11 @@ typedef struct patchproof_model patchproof_model;
 enum { PATCHPROOF_EXACT = 0, PATCHPROOF_BINARY64 = 1 };
 
 /** Every text format of docs/formats.md; not STEP, IGES, BREP, which the program reads. */
-PATCHPROOF_API patchproof_status patchproof_model_read_file(patchproof_context* context, patchproof_text path,
-                                                            int32_t decimals,
-                                                            patchproof_model** out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_model_read_file(
+    patchproof_context* context, patchproof_text path, int32_t decimals, patchproof_model** out) PATCHPROOF_NOEXCEPT;
 /** The bytes of such a file; `name` stands in errors, and its extension helps to know the format. */
 PATCHPROOF_API patchproof_status patchproof_model_read_text(patchproof_context* context, patchproof_text bytes,
-                                                            patchproof_text name, int32_t decimals,
-                                                            patchproof_model** out) PATCHPROOF_NOEXCEPT;
+    patchproof_text name, int32_t decimals, patchproof_model** out) PATCHPROOF_NOEXCEPT;
 
 /** A B-spline surface in doubles, each taken as exactly the number it is. A Bézier patch has knots 0 … 0 1 … 1. */
 typedef struct {
@@ -171,8 +169,8 @@ typedef struct {
   size_t joins_length;
   patchproof_text units; /**< "mm" */
 } patchproof_model_data;
-PATCHPROOF_API patchproof_status patchproof_model_create(patchproof_context* context, const patchproof_model_data* data,
-                                                         patchproof_model** out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_model_create(
+    patchproof_context* context, const patchproof_model_data* data, patchproof_model** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_model_free(patchproof_model* model) PATCHPROOF_NOEXCEPT;
 
 /** Patches are numbered in the order B-splines, GERBS, Gregory patches; curves B-splines, GERBS. */
@@ -183,8 +181,8 @@ typedef struct {
   patchproof_text format, units;
   patchproof_text notes; /**< what the reader noticed, one to a line */
 } patchproof_model_info;
-PATCHPROOF_API patchproof_status patchproof_model_get_info(patchproof_context* context, const patchproof_model* model,
-                                                           patchproof_model_info* out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_model_get_info(
+    patchproof_context* context, const patchproof_model* model, patchproof_model_info* out) PATCHPROOF_NOEXCEPT;
 
 enum { PATCHPROOF_BSPLINE = 0, PATCHPROOF_GERBS = 1, PATCHPROOF_GREGORY = 2 };
 /** Of a patch, or of a curve, which has zeros for v. Of GERBS and Gregory patches only kind, domain and name. */
@@ -197,11 +195,9 @@ typedef struct {
   patchproof_text name;
 } patchproof_spline_info;
 PATCHPROOF_API patchproof_status patchproof_model_patch_get_info(patchproof_context* context,
-                                                                 const patchproof_model* model, size_t patch,
-                                                                 patchproof_spline_info* out) PATCHPROOF_NOEXCEPT;
+    const patchproof_model* model, size_t patch, patchproof_spline_info* out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_model_curve_get_info(patchproof_context* context,
-                                                                 const patchproof_model* model, size_t curve,
-                                                                 patchproof_spline_info* out) PATCHPROOF_NOEXCEPT;
+    const patchproof_model* model, size_t curve, patchproof_spline_info* out) PATCHPROOF_NOEXCEPT;
 
 /** Where the nearest doubles go; NULL: not wanted. Lengths are those of patchproof_spline_info (3 numbers to a point). */
 typedef struct {
@@ -209,48 +205,37 @@ typedef struct {
   double *knots_u, *knots_v, *points, *weights;
   size_t knots_u_length, knots_v_length, points_length, weights_length;
 } patchproof_spline_buffers;
-PATCHPROOF_API patchproof_status
-patchproof_model_patch_get_data(patchproof_context* context, const patchproof_model* model, size_t patch,
-                                const patchproof_spline_buffers* out) PATCHPROOF_NOEXCEPT;
-PATCHPROOF_API patchproof_status
-patchproof_model_curve_get_data(patchproof_context* context, const patchproof_model* model, size_t curve,
-                                const patchproof_spline_buffers* out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_model_patch_get_data(patchproof_context* context,
+    const patchproof_model* model, size_t patch, const patchproof_spline_buffers* out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_model_curve_get_data(patchproof_context* context,
+    const patchproof_model* model, size_t curve, const patchproof_spline_buffers* out) PATCHPROOF_NOEXCEPT;
 
 enum { PATCHPROOF_JSON = 0, PATCHPROOF_G2 = 1 };
 /** JSON keeps every number exactly; .g2 rounds to doubles. *needed counts the zero byte at the end. */
 PATCHPROOF_API patchproof_status patchproof_model_write(patchproof_context* context, const patchproof_model* model,
-                                                        int32_t format, char* buffer, size_t length,
-                                                        size_t* needed) PATCHPROOF_NOEXCEPT;
+    int32_t format, char* buffer, size_t length, size_t* needed) PATCHPROOF_NOEXCEPT;
 
 /* ---- Refinement: exact. The same surface under other knots, in a new model ------- */
 
 enum { PATCHPROOF_U = 0, PATCHPROOF_V = 1 };
 /** The model with its B-spline patch on finer knots; each text ("1/3", "0.25") is one knot, inserted once. */
 PATCHPROOF_API patchproof_status patchproof_model_patch_insert_knots(patchproof_context* context,
-                                                                     const patchproof_model* model, size_t patch,
-                                                                     int32_t direction, const patchproof_text* knots,
-                                                                     size_t length,
-                                                                     patchproof_model** out) PATCHPROOF_NOEXCEPT;
+    const patchproof_model* model, size_t patch, int32_t direction, const patchproof_text* knots, size_t length,
+    patchproof_model** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_model_curve_insert_knots(patchproof_context* context,
-                                                                     const patchproof_model* model, size_t curve,
-                                                                     const patchproof_text* knots, size_t length,
-                                                                     patchproof_model** out) PATCHPROOF_NOEXCEPT;
+    const patchproof_model* model, size_t curve, const patchproof_text* knots, size_t length,
+    patchproof_model** out) PATCHPROOF_NOEXCEPT;
 /** The model with the degree of the patch raised by `times`. */
 PATCHPROOF_API patchproof_status patchproof_model_patch_elevate(patchproof_context* context,
-                                                                const patchproof_model* model, size_t patch,
-                                                                int32_t direction, int32_t times,
-                                                                patchproof_model** out) PATCHPROOF_NOEXCEPT;
+    const patchproof_model* model, size_t patch, int32_t direction, int32_t times,
+    patchproof_model** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_model_curve_elevate(patchproof_context* context,
-                                                                const patchproof_model* model, size_t curve,
-                                                                int32_t times,
-                                                                patchproof_model** out) PATCHPROOF_NOEXCEPT;
+    const patchproof_model* model, size_t curve, int32_t times, patchproof_model** out) PATCHPROOF_NOEXCEPT;
 /** A model of the patch's (the curve's) Bézier pieces, those along v running fastest, over their own parts of the domain. */
 PATCHPROOF_API patchproof_status patchproof_model_patch_extract_bezier(patchproof_context* context,
-                                                                       const patchproof_model* model, size_t patch,
-                                                                       patchproof_model** out) PATCHPROOF_NOEXCEPT;
+    const patchproof_model* model, size_t patch, patchproof_model** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_model_curve_extract_bezier(patchproof_context* context,
-                                                                       const patchproof_model* model, size_t curve,
-                                                                       patchproof_model** out) PATCHPROOF_NOEXCEPT;
+    const patchproof_model* model, size_t curve, patchproof_model** out) PATCHPROOF_NOEXCEPT;
 
 /* ---- Evaluation in batches ------------------------------------------------------------------------------------- */
 
@@ -259,15 +244,14 @@ typedef struct patchproof_curve patchproof_curve;
 
 /** Prepared for doubles. Numbers of the model are rounded to the nearest doubles first (see is_double of its info). */
 PATCHPROOF_API patchproof_status patchproof_surface_of(patchproof_context* context, const patchproof_model* model,
-                                                       size_t patch, patchproof_surface** out) PATCHPROOF_NOEXCEPT;
-PATCHPROOF_API patchproof_status patchproof_surface_create(patchproof_context* context,
-                                                           const patchproof_surface_data* data,
-                                                           patchproof_surface** out) PATCHPROOF_NOEXCEPT;
+    size_t patch, patchproof_surface** out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_surface_create(
+    patchproof_context* context, const patchproof_surface_data* data, patchproof_surface** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_surface_free(patchproof_surface* surface) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_curve_of(patchproof_context* context, const patchproof_model* model,
-                                                     size_t curve, patchproof_curve** out) PATCHPROOF_NOEXCEPT;
-PATCHPROOF_API patchproof_status patchproof_curve_create(patchproof_context* context, const patchproof_curve_data* data,
-                                                         patchproof_curve** out) PATCHPROOF_NOEXCEPT;
+    size_t curve, patchproof_curve** out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_curve_create(
+    patchproof_context* context, const patchproof_curve_data* data, patchproof_curve** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_curve_free(patchproof_curve* curve) PATCHPROOF_NOEXCEPT;
 
 /** Item i is at u[i·stride], v[i·stride]. Pairs u v u v …: {uv, uv + 1, count, 2}. Of curves: v is NULL. */
@@ -301,20 +285,15 @@ typedef struct {
 /** Points and derivatives in double, each within patchproof_surface_error_bound of the exact value at these doubles.
  *  ERRORS PATCHPROOF_BAD_DATA, outside_domain (NaN is) or vanishing_weight, naming the first item. */
 PATCHPROOF_API patchproof_status patchproof_surface_evaluate(patchproof_context* context,
-                                                             const patchproof_surface* surface,
-                                                             patchproof_parameters at,
-                                                             const patchproof_evaluate_options* options,
-                                                             patchproof_derivatives* out) PATCHPROOF_NOEXCEPT;
+    const patchproof_surface* surface, patchproof_parameters at, const patchproof_evaluate_options* options,
+    patchproof_derivatives* out) PATCHPROOF_NOEXCEPT;
 /** On a grid: item i · v_length + j is at (u[i], v[j]). */
 PATCHPROOF_API patchproof_status patchproof_surface_evaluate_grid(patchproof_context* context,
-                                                                  const patchproof_surface* surface, const double* u,
-                                                                  size_t u_length, const double* v, size_t v_length,
-                                                                  const patchproof_evaluate_options* options,
-                                                                  patchproof_derivatives* out) PATCHPROOF_NOEXCEPT;
+    const patchproof_surface* surface, const double* u, size_t u_length, const double* v, size_t v_length,
+    const patchproof_evaluate_options* options, patchproof_derivatives* out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_curve_evaluate(patchproof_context* context, const patchproof_curve* curve,
-                                                           patchproof_parameters at,
-                                                           const patchproof_evaluate_options* options,
-                                                           patchproof_derivatives* out) PATCHPROOF_NOEXCEPT;
+    patchproof_parameters at, const patchproof_evaluate_options* options,
+    patchproof_derivatives* out) PATCHPROOF_NOEXCEPT;
 enum {
   PATCHPROOF_POINT = 0,
   PATCHPROOF_DU = 1,
@@ -324,43 +303,34 @@ enum {
   PATCHPROOF_DVV = 5
 };
 /** |computed − exact| of each coordinate, everywhere; +infinity where nothing is known. Of curves: POINT, DU, DUU. */
-PATCHPROOF_API patchproof_status patchproof_surface_error_bound(patchproof_context* context,
-                                                                const patchproof_surface* surface, int32_t vector,
-                                                                double* out) PATCHPROOF_NOEXCEPT;
-PATCHPROOF_API patchproof_status patchproof_curve_error_bound(patchproof_context* context,
-                                                              const patchproof_curve* curve, int32_t vector,
-                                                              double* out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_surface_error_bound(
+    patchproof_context* context, const patchproof_surface* surface, int32_t vector, double* out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_curve_error_bound(
+    patchproof_context* context, const patchproof_curve* curve, int32_t vector, double* out) PATCHPROOF_NOEXCEPT;
 /** Points, and for each a bound of its own: |computed − exact| ≤ bound[i] in each coordinate. */
 PATCHPROOF_API patchproof_status patchproof_surface_evaluate_bounded(patchproof_context* context,
-                                                                     const patchproof_surface* surface,
-                                                                     patchproof_parameters at,
-                                                                     const patchproof_evaluate_options* options,
-                                                                     patchproof_vectors point, double* bound,
-                                                                     size_t bound_length) PATCHPROOF_NOEXCEPT;
+    const patchproof_surface* surface, patchproof_parameters at, const patchproof_evaluate_options* options,
+    patchproof_vectors point, double* bound, size_t bound_length) PATCHPROOF_NOEXCEPT;
 /** lower ≤ exact ≤ upper in each coordinate. */
 PATCHPROOF_API patchproof_status patchproof_surface_enclose(patchproof_context* context,
-                                                            const patchproof_surface* surface, patchproof_parameters at,
-                                                            const patchproof_evaluate_options* options,
-                                                            patchproof_vectors lower,
-                                                            patchproof_vectors upper) PATCHPROOF_NOEXCEPT;
+    const patchproof_surface* surface, patchproof_parameters at, const patchproof_evaluate_options* options,
+    patchproof_vectors lower, patchproof_vectors upper) PATCHPROOF_NOEXCEPT;
 /** The double nearest to each exact coordinate. */
 PATCHPROOF_API patchproof_status patchproof_surface_evaluate_rounded(patchproof_context* context,
-                                                                     const patchproof_surface* surface,
-                                                                     patchproof_parameters at,
-                                                                     const patchproof_evaluate_options* options,
-                                                                     patchproof_vectors point) PATCHPROOF_NOEXCEPT;
+    const patchproof_surface* surface, patchproof_parameters at, const patchproof_evaluate_options* options,
+    patchproof_vectors point) PATCHPROOF_NOEXCEPT;
 
 enum { PATCHPROOF_RATIONAL = 0, PATCHPROOF_INTERVAL = 1 };
 /** Exact values as texts, "1/3" or "2*sqrt(2)" (intervals: "[0.5, 0.75]"), of any patch of the model, at texts
  *  u v u v … (of a curve t t …). Numbers one to a line: for each item, for each derivative in the order S S_u S_v S_uu S_uv
  *  S_vv … up to the total `order`, its x, y and z. *needed counts the zero byte at the end.
  *  ERRORS PATCHPROOF_BAD_DATA: outside_domain, bad_number, unsupported (exact values of transcendental GERBS). */
-PATCHPROOF_API patchproof_status patchproof_model_patch_evaluate_exact(
-    patchproof_context* context, const patchproof_model* model, size_t patch, const patchproof_text* uv,
-    size_t uv_length, const patchproof_evaluate_options* options, int32_t scalar, int32_t order, char* buffer,
-    size_t length, size_t* needed) PATCHPROOF_NOEXCEPT;
-PATCHPROOF_API patchproof_status patchproof_model_curve_evaluate_exact(
-    patchproof_context* context, const patchproof_model* model, size_t curve, const patchproof_text* t, size_t t_length,
+PATCHPROOF_API patchproof_status patchproof_model_patch_evaluate_exact(patchproof_context* context,
+    const patchproof_model* model, size_t patch, const patchproof_text* uv, size_t uv_length,
+    const patchproof_evaluate_options* options, int32_t scalar, int32_t order, char* buffer, size_t length,
+    size_t* needed) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_model_curve_evaluate_exact(patchproof_context* context,
+    const patchproof_model* model, size_t curve, const patchproof_text* t, size_t t_length,
     const patchproof_evaluate_options* options, int32_t scalar, int32_t order, char* buffer, size_t length,
     size_t* needed) PATCHPROOF_NOEXCEPT;
 
@@ -384,9 +354,8 @@ typedef struct {
 } patchproof_certify_options;
 /** Finds the joins of the model, or takes the declared ones, and decides each. options and callback may be NULL. */
 PATCHPROOF_API patchproof_status patchproof_certify(patchproof_context* context, const patchproof_model* model,
-                                                    const patchproof_certify_options* options,
-                                                    const patchproof_callback* callback,
-                                                    patchproof_report** out) PATCHPROOF_NOEXCEPT;
+    const patchproof_certify_options* options, const patchproof_callback* callback,
+    patchproof_report** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_report_free(patchproof_report* report) PATCHPROOF_NOEXCEPT;
 
 typedef struct {
@@ -396,9 +365,8 @@ typedef struct {
   size_t curve_joins, unmatched_edges, collapsed_edges, gregory_patches;
   double largest_gap[2], largest_angle[2]; /**< over all joins: lower and upper bound */
 } patchproof_report_summary;
-PATCHPROOF_API patchproof_status patchproof_report_get_summary(patchproof_context* context,
-                                                               const patchproof_report* report,
-                                                               patchproof_report_summary* out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_report_get_summary(
+    patchproof_context* context, const patchproof_report* report, patchproof_report_summary* out) PATCHPROOF_NOEXCEPT;
 
 /** The supremum over the whole join lies in [lower, upper]; lower is attained at `point`. */
 typedef struct {
@@ -426,8 +394,7 @@ typedef struct {
   patchproof_text reason; /**< of the outcome */
 } patchproof_join_report;
 PATCHPROOF_API patchproof_status patchproof_report_get_join(patchproof_context* context,
-                                                            const patchproof_report* report, size_t join,
-                                                            patchproof_join_report* out) PATCHPROOF_NOEXCEPT;
+    const patchproof_report* report, size_t join, patchproof_join_report* out) PATCHPROOF_NOEXCEPT;
 /** Exact numbers that refute a class (C0, C1, C2, G1) of a join; found is 0 where it has no witness. */
 typedef struct {
   size_t struct_size;
@@ -436,14 +403,11 @@ typedef struct {
   patchproof_text values;               /**< one to a line */
 } patchproof_witness;
 PATCHPROOF_API patchproof_status patchproof_report_get_witness(patchproof_context* context,
-                                                               const patchproof_report* report, size_t join,
-                                                               int32_t continuity,
-                                                               patchproof_witness* out) PATCHPROOF_NOEXCEPT;
+    const patchproof_report* report, size_t join, int32_t continuity, patchproof_witness* out) PATCHPROOF_NOEXCEPT;
 enum { PATCHPROOF_REPORT_JSON = 0, PATCHPROOF_REPORT_TABLE = 1 };
 /** The document of docs/formats.md ("Report"), or the table that people read. *needed counts the zero byte at the end. */
 PATCHPROOF_API patchproof_status patchproof_report_write(patchproof_context* context, const patchproof_report* report,
-                                                         int32_t format, char* buffer, size_t length,
-                                                         size_t* needed) PATCHPROOF_NOEXCEPT;
+    int32_t format, char* buffer, size_t length, size_t* needed) PATCHPROOF_NOEXCEPT;
 
 /* ---- Gregory fill ---------------------------------------------------------------------------------------------- */
 
@@ -464,9 +428,8 @@ typedef struct {
 /** A curve mesh (the bytes of a file of docs/formats.md, "Curve meshes") filled with one Gregory patch for each face, and
  *  the proofs of it. */
 PATCHPROOF_API patchproof_status patchproof_fill(patchproof_context* context, patchproof_text curve_mesh,
-                                                 patchproof_text name, const patchproof_fill_options* options,
-                                                 const patchproof_callback* callback, patchproof_model** out,
-                                                 patchproof_fill_summary* summary) PATCHPROOF_NOEXCEPT;
+    patchproof_text name, const patchproof_fill_options* options, const patchproof_callback* callback,
+    patchproof_model** out, patchproof_fill_summary* summary) PATCHPROOF_NOEXCEPT;
 
 /* ---- Tessellation ---------------------------------------------------------------------------------------------- */
 
@@ -481,9 +444,8 @@ typedef struct {
   int32_t method, jobs;
 } patchproof_tessellate_options;
 PATCHPROOF_API patchproof_status patchproof_tessellate(patchproof_context* context, const patchproof_model* model,
-                                                       const patchproof_tessellate_options* options,
-                                                       const patchproof_callback* callback,
-                                                       patchproof_mesh** out) PATCHPROOF_NOEXCEPT;
+    const patchproof_tessellate_options* options, const patchproof_callback* callback,
+    patchproof_mesh** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_mesh_free(patchproof_mesh* mesh) PATCHPROOF_NOEXCEPT;
 
 typedef struct {
@@ -496,18 +458,16 @@ typedef struct {
   int32_t oriented;
   patchproof_text notes; /**< one to a line */
 } patchproof_mesh_info;
-PATCHPROOF_API patchproof_status patchproof_mesh_get_info(patchproof_context* context, const patchproof_mesh* mesh,
-                                                          patchproof_mesh_info* out) PATCHPROOF_NOEXCEPT;
+PATCHPROOF_API patchproof_status patchproof_mesh_get_info(
+    patchproof_context* context, const patchproof_mesh* mesh, patchproof_mesh_info* out) PATCHPROOF_NOEXCEPT;
 /** vertices: 3 numbers each; triangles: 3 numbers of vertices each; patches: of each triangle. NULL: not wanted. */
 PATCHPROOF_API patchproof_status patchproof_mesh_get_data(patchproof_context* context, const patchproof_mesh* mesh,
-                                                          double* vertices, size_t vertices_length, int32_t* triangles,
-                                                          size_t triangles_length, int32_t* patches,
-                                                          size_t patches_length) PATCHPROOF_NOEXCEPT;
+    double* vertices, size_t vertices_length, int32_t* triangles, size_t triangles_length, int32_t* patches,
+    size_t patches_length) PATCHPROOF_NOEXCEPT;
 enum { PATCHPROOF_STL = 0, PATCHPROOF_OBJ = 1, PATCHPROOF_PLY = 2, PATCHPROOF_GLB = 3, PATCHPROOF_VTU = 4 };
 /** The bytes of a file. *needed counts a zero byte at the end, which is not part of it. */
 PATCHPROOF_API patchproof_status patchproof_mesh_write(patchproof_context* context, const patchproof_mesh* mesh,
-                                                       int32_t format, char* buffer, size_t length,
-                                                       size_t* needed) PATCHPROOF_NOEXCEPT;
+    int32_t format, char* buffer, size_t length, size_t* needed) PATCHPROOF_NOEXCEPT;
 
 #ifdef __cplusplus
 }
