@@ -16,6 +16,31 @@ namespace patchproof::batch {
 // Items a thread takes at a time: a multiple of the tiles of all kernels and of all vectors.
 constexpr std::size_t kShare = std::size_t{1} << 14;
 
+// Kernels take parameters in lists. Others are gathered in blocks that stay in the nearest cache: a whole number of tiles each.
+// body(u, v, begin, count) → kernels::Progress.
+template <class Body>
+kernels::Progress in_lists(const ParameterArray& at, std::size_t begin, std::size_t count, const Body& body) {
+  if (at.stride == 1) return body(at.u + begin, at.v == nullptr ? nullptr : at.v + begin, begin, count);
+  constexpr std::size_t kBlock = 1024;
+  double u[kBlock], v[kBlock];
+  kernels::Progress all;
+  for (std::size_t done = 0; done < count; done += kBlock) {
+    const std::size_t n = std::min(kBlock, count - done);
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(begin + done) * at.stride;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::ptrdiff_t place = first + static_cast<std::ptrdiff_t>(i) * at.stride;
+      u[i] = at.u[place];
+      if (at.v != nullptr) v[i] = at.v[place];
+    }
+    const kernels::Progress block = body(u, at.v == nullptr ? nullptr : v, begin + done, n);
+    all.undefined_normals += block.undefined_normals;
+    all.good += block.good;
+    all.stop = block.stop;
+    if (all.stop != kernels::Stop::none) break;
+  }
+  return all;
+}
+
 // part(begin, count) → kernels::Progress for a range of items, whole shares but for the last one and for single items;
 // describe(i): item i's parameters, for the error.
 template <class Part, class Describe>

@@ -29,6 +29,16 @@ std::string describe_uv(double u, double v) {
   return "(u, v) = (" + kernels::number_text(u) + ", " + kernels::number_text(v) + ")";
 }
 
+// body(u, v, begin, count) for lists of parameters.
+template <class Body>
+Result<BatchSummary> run(const ParameterArray& at, int threads, const Body& body) {
+  const auto part = [&](std::size_t begin, std::size_t count) { return batch::in_lists(at, begin, count, body); };
+  return batch::run(at.count, batch::kShare, threads, part, [&](std::size_t i) {
+    const auto place = static_cast<std::ptrdiff_t>(i) * at.stride;
+    return describe_uv(at.u[place], at.v[place]);
+  });
+}
+
 std::size_t first_outside(const kernels::Axis& axis, std::span<const double> t) {
   return static_cast<std::size_t>(
       std::find_if(t.begin(), t.end(), [&](double x) { return !(x >= axis.begin && x <= axis.end); }) - t.begin());
@@ -41,17 +51,14 @@ Error outside(const char* name, std::size_t i, double t) {
 
 // set(call, begin): where the results of a share go.
 template <class Set>
-Result<BatchSummary> bounded(const kernels::SurfacePieces& pieces, std::span<const double> u, std::span<const double> v,
+Result<BatchSummary> bounded(const kernels::SurfacePieces& pieces, const ParameterArray& at,
                              const SurfaceBatchOptions& options, const Set& set) {
-  PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
   const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
-  const auto part = [&](std::size_t begin, std::size_t count) {
+  return run(at, options.threads, [&](const double* u, const double* v, std::size_t begin, std::size_t count) {
     kernels::SurfaceCall call = call_of(options);
     set(call, begin);
-    return table.bounded(pieces, call, u.data() + begin, v.data() + begin, count);
-  };
-  return batch::run(u.size(), batch::kShare, options.threads, part,
-                    [&](std::size_t i) { return describe_uv(u[i], v[i]); });
+    return table.bounded(pieces, call, u, v, count);
+  });
 }
 
 // Of the span that the kernels take for t: its first control point, and its knots as those of a patch of one span.
@@ -92,23 +99,20 @@ bool exact_point(const kernels::SurfacePieces& s, const kernels::SurfaceCall& ca
 
 // A point that the compensated kernel cannot round for certain is computed exactly: all such points of a correctly rounded
 // call; of a compensated one those that are no numbers.
-Result<BatchSummary> compensated(const kernels::SurfacePieces& pieces, std::span<const double> u,
-                                 std::span<const double> v, const VectorArray& point,
-                                 const SurfaceBatchOptions& options, bool correctly_rounded) {
-  PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
+Result<BatchSummary> compensated(const kernels::SurfacePieces& pieces, const ParameterArray& at,
+                                 const VectorArray& point, const SurfaceBatchOptions& options, bool correctly_rounded) {
   PATCHPROOF_REQUIRES(point.wanted(), "compensated evaluation: a place for the points");
   const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
-  const auto part = [&](std::size_t begin, std::size_t count) {
+  const auto lists = [&](const double* u, const double* v, std::size_t begin, std::size_t count) {
     constexpr std::size_t kPart = 4096;
     unsigned char undecided[kPart];
-    for (std::size_t at = 0; at < count; at += kPart) {
-      const std::size_t n = std::min(kPart, count - at);
+    for (std::size_t done = 0; done < count; done += kPart) {
+      const std::size_t n = std::min(kPart, count - done);
       kernels::SurfaceCall call = call_of(options);
-      call.out.point = point.from(static_cast<std::ptrdiff_t>(begin + at));
-      kernels::Progress progress =
-          table.compensated(pieces, call, u.data() + begin + at, v.data() + begin + at, n, undecided);
+      call.out.point = point.from(static_cast<std::ptrdiff_t>(begin + done));
+      kernels::Progress progress = table.compensated(pieces, call, u + done, v + done, n, undecided);
       if (progress.stop != kernels::Stop::none) {
-        progress.good += at;
+        progress.good += done;
         return progress;
       }
       for (std::size_t i = 0; i < n; ++i) {
@@ -116,14 +120,13 @@ Result<BatchSummary> compensated(const kernels::SurfacePieces& pieces, std::span
         const VectorArray one = call.out.point.from(static_cast<std::ptrdiff_t>(i));
         const bool number = std::isfinite(*one.x) && std::isfinite(*one.y) && std::isfinite(*one.z);
         if (number && !correctly_rounded) continue;
-        if (!exact_point(pieces, call, u[begin + at + i], v[begin + at + i], one))
-          return kernels::Progress{at + i, kernels::Stop::vanishing_weight, 0};
+        if (!exact_point(pieces, call, u[done + i], v[done + i], one))
+          return kernels::Progress{done + i, kernels::Stop::vanishing_weight, 0};
       }
     }
     return kernels::Progress{count, kernels::Stop::none, 0};
   };
-  return batch::run(u.size(), batch::kShare, options.threads, part,
-                    [&](std::size_t i) { return describe_uv(u[i], v[i]); });
+  return run(at, options.threads, lists);
 }
 
 }  // namespace
@@ -147,17 +150,14 @@ double BatchSurface::error_bound(SurfaceVector vector) const {
   return largest;
 }
 
-Result<BatchSummary> BatchSurface::evaluate(std::span<const double> u, std::span<const double> v,
-                                            const SurfaceOutput& out, const SurfaceBatchOptions& options) const {
-  PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
+Result<BatchSummary> BatchSurface::evaluate(const ParameterArray& at, const SurfaceOutput& out,
+                                            const SurfaceBatchOptions& options) const {
   const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
-  const auto part = [&](std::size_t begin, std::size_t count) {
+  return run(at, options.threads, [&](const double* u, const double* v, std::size_t begin, std::size_t count) {
     kernels::SurfaceCall call = call_of(options);
     call.out = from(out, begin);
-    return table.surface(*pieces_, call, u.data() + begin, v.data() + begin, count);
-  };
-  return batch::run(u.size(), batch::kShare, options.threads, part,
-                    [&](std::size_t i) { return describe_uv(u[i], v[i]); });
+    return table.surface(*pieces_, call, u, v, count);
+  });
 }
 
 Result<BatchSummary> BatchSurface::evaluate_grid(std::span<const double> u, std::span<const double> v,
@@ -178,35 +178,32 @@ Result<BatchSummary> BatchSurface::evaluate_grid(std::span<const double> u, std:
                     [&](std::size_t i) { return describe_uv(u[i / columns], v[i % columns]); });
 }
 
-Result<BatchSummary> BatchSurface::evaluate_bounded(std::span<const double> u, std::span<const double> v,
-                                                    const VectorArray& point, double* bound,
+Result<BatchSummary> BatchSurface::evaluate_bounded(const ParameterArray& at, const VectorArray& point, double* bound,
                                                     const SurfaceBatchOptions& options) const {
-  return bounded(*pieces_, u, v, options, [&](kernels::SurfaceCall& call, std::size_t begin) {
+  return bounded(*pieces_, at, options, [&](kernels::SurfaceCall& call, std::size_t begin) {
     call.out.point = point.from(static_cast<std::ptrdiff_t>(begin));
     call.bound = bound == nullptr ? nullptr : bound + begin;
   });
 }
 
-Result<BatchSummary> BatchSurface::evaluate_interval(std::span<const double> u, std::span<const double> v,
-                                                     const VectorArray& lower, const VectorArray& upper,
+Result<BatchSummary> BatchSurface::evaluate_interval(const ParameterArray& at, const VectorArray& lower,
+                                                     const VectorArray& upper,
                                                      const SurfaceBatchOptions& options) const {
   PATCHPROOF_REQUIRES(lower.wanted() == upper.wanted(), "evaluate_interval: both ends or none");
-  return bounded(*pieces_, u, v, options, [&](kernels::SurfaceCall& call, std::size_t begin) {
+  return bounded(*pieces_, at, options, [&](kernels::SurfaceCall& call, std::size_t begin) {
     call.lower = lower.from(static_cast<std::ptrdiff_t>(begin));
     call.upper = upper.from(static_cast<std::ptrdiff_t>(begin));
   });
 }
 
-Result<BatchSummary> BatchSurface::evaluate_compensated(std::span<const double> u, std::span<const double> v,
-                                                        const VectorArray& point,
+Result<BatchSummary> BatchSurface::evaluate_compensated(const ParameterArray& at, const VectorArray& point,
                                                         const SurfaceBatchOptions& options) const {
-  return compensated(*pieces_, u, v, point, options, false);
+  return compensated(*pieces_, at, point, options, false);
 }
 
-Result<BatchSummary> BatchSurface::evaluate_correctly_rounded(std::span<const double> u, std::span<const double> v,
-                                                              const VectorArray& point,
+Result<BatchSummary> BatchSurface::evaluate_correctly_rounded(const ParameterArray& at, const VectorArray& point,
                                                               const SurfaceBatchOptions& options) const {
-  return compensated(*pieces_, u, v, point, options, true);
+  return compensated(*pieces_, at, point, options, true);
 }
 
 }  // namespace patchproof

@@ -27,16 +27,18 @@ double BatchCurve::error_bound(int derivative) const {
   return largest;
 }
 
-Result<BatchSummary> BatchCurve::evaluate(std::span<const double> t, const CurveOutput& out,
+Result<BatchSummary> BatchCurve::evaluate(const ParameterArray& t, const CurveOutput& out,
                                           const CurveBatchOptions& options) const {
   const kernels::KernelTable& table = kernels::kernel_table(options.instructions);
-  const auto part = [&](std::size_t begin, std::size_t count) {
+  const auto lists = [&](const double* list, const double*, std::size_t begin, std::size_t count) {
     const auto from = static_cast<std::ptrdiff_t>(begin);
     return table.curve(*pieces_, {out.point.from(from), out.first.from(from), out.second.from(from)},
-                       options.side == Side::left, t.data() + begin, count);
+                       options.side == Side::left, list, count);
   };
-  return batch::run(t.size(), batch::kShare, options.threads, part,
-                    [&](std::size_t i) { return "t = " + kernels::number_text(t[i]); });
+  const auto part = [&](std::size_t begin, std::size_t count) { return batch::in_lists(t, begin, count, lists); };
+  return batch::run(t.count, batch::kShare, options.threads, part, [&](std::size_t i) {
+    return "t = " + kernels::number_text(t.u[static_cast<std::ptrdiff_t>(i) * t.stride]);
+  });
 }
 
 }  // namespace patchproof

@@ -75,26 +75,52 @@ class BatchSurface {
   // the weights do not exceed the denominator's rounding errors: evaluate_bounded knows more there.
   double error_bound(SurfaceVector vector) const;
 
-  // Item i at (u[i], v[i]), in any order. REQUIRES as many u as v, here and below.
-  Result<BatchSummary> evaluate(std::span<const double> u, std::span<const double> v, const SurfaceOutput& out,
+  // Item i at (u[i], v[i]), in any order.
+  Result<BatchSummary> evaluate(const ParameterArray& at, const SurfaceOutput& out,
                                 const SurfaceBatchOptions& options = {}) const;
   // Item i · v.size() + j at (u[i], v[j]).
   Result<BatchSummary> evaluate_grid(std::span<const double> u, std::span<const double> v, const SurfaceOutput& out,
                                      const SurfaceBatchOptions& options = {}) const;
   // bound[i] ≥ |computed − exact| in each coordinate of point i; +infinity where the denominator may be zero.
-  Result<BatchSummary> evaluate_bounded(std::span<const double> u, std::span<const double> v, const VectorArray& point,
-                                        double* bound, const SurfaceBatchOptions& options = {}) const;
-  Result<BatchSummary> evaluate_interval(std::span<const double> u, std::span<const double> v, const VectorArray& lower,
-                                         const VectorArray& upper, const SurfaceBatchOptions& options = {}) const;
-  Result<BatchSummary> evaluate_compensated(std::span<const double> u, std::span<const double> v,
-                                            const VectorArray& point, const SurfaceBatchOptions& options = {}) const;
-  Result<BatchSummary> evaluate_correctly_rounded(std::span<const double> u, std::span<const double> v,
-                                                  const VectorArray& point,
+  Result<BatchSummary> evaluate_bounded(const ParameterArray& at, const VectorArray& point, double* bound,
+                                        const SurfaceBatchOptions& options = {}) const;
+  Result<BatchSummary> evaluate_interval(const ParameterArray& at, const VectorArray& lower, const VectorArray& upper,
+                                         const SurfaceBatchOptions& options = {}) const;
+  Result<BatchSummary> evaluate_compensated(const ParameterArray& at, const VectorArray& point,
+                                            const SurfaceBatchOptions& options = {}) const;
+  Result<BatchSummary> evaluate_correctly_rounded(const ParameterArray& at, const VectorArray& point,
                                                   const SurfaceBatchOptions& options = {}) const;
+
+  // The same of parameters in two lists. REQUIRES as many u as v.
+  using List = std::span<const double>;
+  Result<BatchSummary> evaluate(List u, List v, const SurfaceOutput& out,
+                                const SurfaceBatchOptions& options = {}) const {
+    return evaluate(lists(u, v), out, options);
+  }
+  Result<BatchSummary> evaluate_bounded(List u, List v, const VectorArray& point, double* bound,
+                                        const SurfaceBatchOptions& options = {}) const {
+    return evaluate_bounded(lists(u, v), point, bound, options);
+  }
+  Result<BatchSummary> evaluate_interval(List u, List v, const VectorArray& lower, const VectorArray& upper,
+                                         const SurfaceBatchOptions& options = {}) const {
+    return evaluate_interval(lists(u, v), lower, upper, options);
+  }
+  Result<BatchSummary> evaluate_compensated(List u, List v, const VectorArray& point,
+                                            const SurfaceBatchOptions& options = {}) const {
+    return evaluate_compensated(lists(u, v), point, options);
+  }
+  Result<BatchSummary> evaluate_correctly_rounded(List u, List v, const VectorArray& point,
+                                                  const SurfaceBatchOptions& options = {}) const {
+    return evaluate_correctly_rounded(lists(u, v), point, options);
+  }
 
   const kernels::SurfacePieces& pieces() const { return *pieces_; }
 
  private:
+  static ParameterArray lists(List u, List v) {
+    PATCHPROOF_REQUIRES(u.size() == v.size(), "batch evaluation: as many u as v");
+    return {u.data(), v.data(), u.size()};
+  }
   explicit BatchSurface(std::shared_ptr<const kernels::SurfacePieces> pieces) : pieces_(std::move(pieces)) {}
   std::shared_ptr<const kernels::SurfacePieces> pieces_;
 };

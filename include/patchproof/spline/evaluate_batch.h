@@ -75,6 +75,17 @@ namespace kernels {
 struct CurvePieces;
 }
 
+// Where parameters are: item i at u[i·stride], and v[i·stride] where there are two.
+struct ParameterArray {
+  const double* u = nullptr;
+  const double* v = nullptr;
+  std::size_t count = 0;
+  std::ptrdiff_t stride = 1;
+
+  // u v u v …
+  static ParameterArray interleaved(const double* uv, std::size_t count) { return {uv, uv + 1, count, 2}; }
+};
+
 // What a call did.
 struct BatchSummary {
   // Normals asked for where the computed S_u × S_v is 0, or below 2^-450 of its piece's size; they are written as 0 0 0.
@@ -96,6 +107,10 @@ class BatchCurve {
 
   // Item i at t[i]. Sorted parameters are fastest, any order is right.
   Result<BatchSummary> evaluate(std::span<const double> t, const CurveOutput& out,
+                                const CurveBatchOptions& options = {}) const {
+    return evaluate(ParameterArray{t.data(), nullptr, t.size()}, out, options);
+  }
+  Result<BatchSummary> evaluate(const ParameterArray& t, const CurveOutput& out,
                                 const CurveBatchOptions& options = {}) const;
 
   const kernels::CurvePieces& pieces() const { return *pieces_; }
