@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/tessellate_cad.h"
-#include "io/gerbs_splines.h"
 #include "patchproof/io/cad.h"
-#include "patchproof/io/mesh_files.h"
 #include "patchproof/io/read.h"
-#include "patchproof/mesh/adaptive_mesh.h"
+#include "patchproof/io/tessellate_model.h"
 
 namespace patchproof::cli {
 namespace {
@@ -29,93 +27,35 @@ struct Options {
   Decimals decimals = Decimals::exact;
 };
 
-struct Source {
-  std::string units, method;
-  std::vector<std::string> notes;
-};
-
 MeshRequest request_of(const Options& o) { return {o.chord, o.angle, o.max_triangles, o.jobs}; }
 
-template <ExactField T>
-Result<CertifiedMesh> mesh_of(const Model<T>& model, const Options& o, Source& source) {
-  if (has_gerbs(model)) {
-    SplineModel<T> splines = gerbs_to_splines(model);
-    if (!splines.outlined_patches.empty())
-      return Error{ErrorCode::unsupported, fmt::format("patch {}", splines.outlined_patches.front()),
-                   "no error can be proved yet for a GERBS that is no spline; plot draws it, without a bound", ""};
-    source.notes.insert(source.notes.end(), splines.notes.begin(), splines.notes.end());
-    return mesh_of(splines.model, o, source);
+// Makes meshes of the file: faces of CAD files are read anew, models once.
+using Mesher = std::function<Result<ModelMesh>(const MeshRequest&)>;
+Result<Mesher> mesher_of(const Options& o) {
+  if (looks_like_cad(o.model)) {
+    if (o.method != "auto" && o.method != "delaunay")
+      return Error{ErrorCode::unsupported, "--method", "faces with trimming curves are meshed by delaunay", o.method};
+    return Mesher([&o](const MeshRequest& request) { return mesh_of_cad(o.model, request); });
   }
+  Result<ModelFile> file = read_model(o.model, o.decimals);
+  if (!file) return file.error();
   if (o.method == "delaunay")
     return Error{ErrorCode::unsupported, "--method",
                  "delaunay is for trimmed faces of CAD files; for patches there are adaptive and regular", o.method};
-  source.method = o.method == "auto" ? "adaptive" : o.method;
-  source.units = model.units;
-  const auto left_out = [&](std::size_t count, const char* what) {
-    if (count > 0) source.notes.push_back(fmt::format("left out: {} {}", count, what));
-  };
-  left_out(model.gregory_patches.size(), "Gregory patches");
-  left_out(model.curves.size(), "curves");
-  left_out(model.solids.size(), "solids");
-  std::vector<BsplinePatch<T, 4>> parts;
-  bool torn = false;
-  for (const ModelPatch<T>& p : model.patches) {
-    std::vector<BsplinePatch<T, 4>> of_patch = split_torn(p.surface);
-    torn = torn || of_patch.size() > 1;
-    for (auto& part : of_patch) parts.push_back(std::move(part));
-  }
-  if (parts.empty())
-    return Error{ErrorCode::unsupported, "tessellate",
-                 model.gregory_patches.empty()
-                     ? "the model has no patches"
-                     : "Gregory patches are not tessellated: convert writes B-spline patches near them",
-                 ""};
-  if (torn)
-    source.notes.push_back("patches that may jump at a knot are meshed in parts, and patches are counted by parts");
-  std::vector<const BsplinePatch<T, 4>*> patches;
-  for (const auto& p : parts) patches.push_back(&p);
-  EdgeMatch<T> match = match_edges(patches);
-  if (!model.joins.empty() && !torn) {
-    match.joins.clear();
-    for (const DeclaredJoin& j : model.joins)
-      match.joins.push_back(whole_edge_join(patches, j.patch_a, j.edge_a, j.patch_b, j.edge_b, j.reversed));
-  }
-  return adaptive_mesh(patches, match.joins, match.collapsed, request_of(o),
-                       o.method == "regular" ? CellMethod::regular : CellMethod::adaptive);
+  const CellMethod method = o.method == "regular" ? CellMethod::regular : CellMethod::adaptive;
+  return Mesher([file = std::make_shared<const ModelFile>(std::move(*file)), method](const MeshRequest& request) {
+    return tessellate_model(*file, request, method);
+  });
 }
 
-std::string bytes_error(const std::string& format) {
-  return fmt::format("OUT ends in .stl, .obj, .ply, .glb or .vtu, not in '{}'", format);
-}
-
-using Writer = Result<std::string> (*)(const std::vector<MeshPart>&);
-Writer writer_of(const std::string& extension) {
-  return extension == ".stl"   ? write_stl
-         : extension == ".obj" ? write_obj
-         : extension == ".ply" ? write_ply
-         : extension == ".glb" ? write_glb
-         : extension == ".vtu" ? write_vtu
-                               : nullptr;
-}
-
-bool is_single_precision(const std::string& extension) { return extension == ".stl" || extension == ".glb"; }
-
-// Formats of single precision move each vertex by at most this.
-double rounding_of(const CertifiedMesh& mesh, const std::string& extension) {
-  if (!is_single_precision(extension)) return 0;
-  double largest = 0;
-  for (const auto& v : mesh.vertices)
-    for (const double x : v.c) largest = std::max(largest, std::abs(x));
-  return 1.7321 * (0x1p-24 * largest + 0x1p-149);
-}
-
-std::string report_json(const Options& o, const Source& source, const CertifiedMesh& mesh, const Watertight& closed,
-                        double rounding, bool proved) {
+std::string report_json(const Options& o, const ModelMesh& made, const MeshJudgement& judged) {
+  const CertifiedMesh& mesh = made.mesh;
+  const Watertight& closed = judged.watertight;
   nlohmann::ordered_json out;
   out["program"] = "patchproof " PATCHPROOF_VERSION;
   out["model"] = o.model;
-  out["units"] = source.units;
-  out["method"] = source.method;
+  out["units"] = made.units;
+  out["method"] = made.method;
   out["asked"] = {{"chord", o.chord}};
   if (o.angle < 180) out["asked"]["angle"] = o.angle;
   out["vertices"] = mesh.vertices.size();
@@ -124,35 +64,38 @@ std::string report_json(const Options& o, const Source& source, const CertifiedM
   const auto number = [](double x) {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
   };
-  out["chord"] = {
-      {"proved", number(mesh.chord)}, {"misses", mesh.chord_misses}, {"gap", number(mesh.gap)}, {"rounding", rounding}};
+  out["chord"] = {{"proved", number(mesh.chord)},
+                  {"misses", mesh.chord_misses},
+                  {"gap", number(mesh.gap)},
+                  {"rounding", judged.rounding}};
   out["angle"] = {{"proved", mesh.angle < 180 ? nlohmann::ordered_json(mesh.angle) : nlohmann::ordered_json(nullptr)},
                   {"misses", mesh.angle_misses}};
   out["watertight"] = {{"is", closed.is_watertight()}, {"closed", closed.is_closed()}, {"edges", closed.edges},
                        {"free_edges", closed.free},    {"cracks", closed.cracks},      {"branching", closed.branching},
                        {"oriented", closed.oriented}};
-  out["proved"] = proved;
-  out["notes"] = source.notes;
+  out["proved"] = judged.proved;
+  out["notes"] = made.notes;
   for (const std::string& note : mesh.notes) out["notes"].push_back(note);
   return out.dump(2) + "\n";
 }
 
-std::string summary(const Options& o, const Source& source, const CertifiedMesh& mesh, const Watertight& closed,
-                    double rounding) {
+std::string summary(const Options& o, const ModelMesh& made, const MeshJudgement& judged) {
+  const CertifiedMesh& mesh = made.mesh;
+  const Watertight& closed = judged.watertight;
   std::string text = fmt::format("{}: {} vertices, {} triangles ({})\n", o.model, mesh.vertices.size(),
-                                 mesh.triangles.size(), source.method);
+                                 mesh.triangles.size(), made.method);
   if (!o.quiet) {
-    for (const std::string& note : source.notes) text += fmt::format("  {}\n", note);
+    for (const std::string& note : made.notes) text += fmt::format("  {}\n", note);
     for (const std::string& note : mesh.notes) text += fmt::format("  {}\n", note);
   }
   text += std::isfinite(mesh.chord) ? fmt::format("chord error: at most {:.6g}{}{}, proved; asked {:g}", mesh.chord,
-                                                  source.units.empty() ? "" : " ", source.units, o.chord)
+                                                  made.units.empty() ? "" : " ", made.units, o.chord)
                                     : fmt::format("chord error: no bound; asked {:g}", o.chord);
   if (mesh.chord_misses > 0) text += fmt::format(", not proved for {} triangles", mesh.chord_misses);
   if (mesh.gap > 0)
     text += fmt::format("\n  vertices lie within {:.3g} of the faces they belong to, which is part of it", mesh.gap);
-  if (rounding > 0)
-    text += fmt::format("\n  single precision moves vertices of the file by at most {:.3g} more", rounding);
+  if (judged.rounding > 0)
+    text += fmt::format("\n  single precision moves vertices of the file by at most {:.3g} more", judged.rounding);
   text += mesh.angle < 180 ? fmt::format("\nnormal angle: at most {:.6g} degrees, proved", mesh.angle)
                            : std::string("\nnormal angle: no bound for some triangles");
   if (o.angle < 180) text += fmt::format("; asked {:g}", o.angle);
@@ -172,57 +115,32 @@ std::string summary(const Options& o, const Source& source, const CertifiedMesh&
 
 int run(const Options& o) {
   const std::string extension = fs::path(o.out).extension().string();
-  const Writer write = writer_of(extension);
-  if (!write) return report_error({ErrorCode::usage, o.out, bytes_error(extension), ""});
+  const std::optional<MeshFormat> format = mesh_format_of(extension);
+  if (!format)
+    return report_error({ErrorCode::usage, o.out,
+                         fmt::format("OUT ends in .stl, .obj, .ply, .glb or .vtu, not in '{}'", extension), ""});
   std::error_code ignored;
   for (const std::string& to : {o.out, o.json})
     if (!to.empty() && to != "-" && fs::equivalent(o.model, to, ignored))
       return report_error({ErrorCode::usage, "tessellate", "would overwrite its input", to});
   if (auto error = check_request(request_of(o))) return report_error(*error);
-  Source source;
-  const auto made = [&](const Options& request) -> Result<CertifiedMesh> {
-    source = {};
-    if (looks_like_cad(o.model)) {
-      if (o.method != "auto" && o.method != "delaunay")
-        return Error{ErrorCode::unsupported, "--method", "faces with trimming curves are meshed by delaunay", o.method};
-      source.method = "delaunay";
-      return mesh_of_cad(o.model, request_of(request), source.units, source.notes);
-    }
-    Result<ModelFile> file = read_model(o.model, o.decimals);
-    if (!file) return file.error();
-    for (const std::string& note : file->notes) source.notes.push_back(note);
-    return std::visit([&](const auto& model) { return mesh_of(model, request, source); }, file->model);
-  };
-  // What the file's single precision moves comes on top: there is room for it, and more where that is not enough.
-  Options first = o;
-  if (is_single_precision(extension)) first.chord = 0.995 * o.chord;
-  Result<CertifiedMesh> mesh = made(first);
-  if (mesh && mesh->chord <= o.chord && mesh->chord + rounding_of(*mesh, extension) > o.chord) {
-    Options less = o;
-    less.chord = o.chord - 1.01 * rounding_of(*mesh, extension);
-    if (less.chord > 0) mesh = made(less);
-  }
-  if (!mesh) {
-    Error error = mesh.error();
+  const auto mesher = mesher_of(o);
+  const Result<ModelMesh> made = mesher ? mesh_for_file(*format, request_of(o), *mesher) : mesher.error();
+  if (!made) {
+    Error error = made.error();
     if (error.where.find(o.model) == std::string::npos)
       error.where = o.model + (error.where.empty() ? "" : ", " + error.where);
     return report_error(error);
   }
-  const Watertight closed = check_watertight(*mesh);
-  const double rounding = rounding_of(*mesh, extension);
-  const bool proved =
-      mesh->chord_misses == 0 && mesh->angle_misses == 0 && mesh->chord + rounding <= o.chord && closed.is_watertight();
-
-  MeshPart part{fs::path(o.model).stem().string(), {CellKind::simplex, 2, mesh->vertices, {}}, {}, {}};
-  for (const auto& t : mesh->triangles) part.mesh.corners.insert(part.mesh.corners.end(), t.begin(), t.end());
-  const Result<std::string> bytes = write({part});
+  const MeshJudgement judged = judge_mesh(made->mesh, request_of(o), *format);
+  const Result<std::string> bytes = write_mesh(made->mesh, fs::path(o.model).stem().string(), *format);
   if (!bytes) return report_error(bytes.error());
   if (const int failed = write_output(o.out, *bytes)) return failed;
   if (!o.json.empty())
-    if (const int failed = write_output(o.json, report_json(o, source, *mesh, closed, rounding, proved))) return failed;
+    if (const int failed = write_output(o.json, report_json(o, *made, judged))) return failed;
   if (o.json != "-")
-    if (const int failed = write_output("-", summary(o, source, *mesh, closed, rounding))) return failed;
-  return proved ? kProven : kRefuted;
+    if (const int failed = write_output("-", summary(o, *made, judged))) return failed;
+  return judged.proved ? kProven : kRefuted;
 }
 
 }  // namespace

@@ -11,9 +11,7 @@
 
 namespace patchproof::cli {
 
-Result<CertifiedMesh> mesh_of_cad([[maybe_unused]] const std::string& path, [[maybe_unused]] const MeshRequest& request,
-                                  [[maybe_unused]] std::string& units,
-                                  [[maybe_unused]] std::vector<std::string>& notes) {
+Result<ModelMesh> mesh_of_cad(const std::string& path, [[maybe_unused]] const MeshRequest& request) {
 #ifndef PATCHPROOF_HAVE_OCCT_READER
   return Error{ErrorCode::unsupported, path,
                "STEP, IGES and BREP files are read by builds with Open CASCADE (Debian: libocct-data-exchange-dev)",
@@ -26,8 +24,7 @@ Result<CertifiedMesh> mesh_of_cad([[maybe_unused]] const std::string& path, [[ma
   const Result<CadModel> cad = read_cad_model(path);
   if (!cad) return cad.error();
   if (cad->faces.empty()) return Error{ErrorCode::wrong_count, path, "the file has no faces", "0"};
-  units = cad->units;
-  notes.insert(notes.end(), cad->notes.begin(), cad->notes.end());
+  ModelMesh out{{}, cad->units, "delaunay", cad->notes};
   std::vector<TrimmedFace> faces;
   for (const CadFace& face : cad->faces) faces.push_back({face.label, &face.surface});
   std::vector<TrimmedEdge> edges;
@@ -38,8 +35,12 @@ Result<CertifiedMesh> mesh_of_cad([[maybe_unused]] const std::string& path, [[ma
     edges.push_back({edge.label, {}, edge.tolerance});
     for (const CadUse& use : edge.uses) edges.back().uses.push_back({use.face, use.forward, &use.parameters});
   }
-  for (const auto& [note, count] : unusable) notes.push_back(fmt::format("{} edges are not usable: {}", count, note));
-  return trimmed_mesh(faces, edges, request, constrained_delaunay);
+  for (const auto& [note, count] : unusable)
+    out.notes.push_back(fmt::format("{} edges are not usable: {}", count, note));
+  Result<CertifiedMesh> mesh = trimmed_mesh(faces, edges, request, constrained_delaunay);
+  if (!mesh) return mesh.error();
+  out.mesh = std::move(*mesh);
+  return out;
 #endif
 }
 
