@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patchproof/join/gerbs_join.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 
 #include "patchproof/deadline.h"
 #include "patchproof/join/trimmed_join.h"
+#include "patchproof/parallel.h"
 #include "patchproof/spline/gerbs_spline.h"
 
 namespace patchproof {
@@ -235,13 +232,8 @@ std::vector<Certificate> certify_blended_joins(const std::vector<BlendedSide>& s
                                                const std::vector<Join<Rational>>& joins, const Request& request,
                                                int jobs) {
   std::vector<Certificate> out(joins.size());
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    jobs > 0 ? jobs : std::max(1, tbb::this_task_arena::max_concurrency()));
-  tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, joins.size(), [&](std::size_t i) {
-      out[i] = certify_blended_join(surfaces[joins[i].patch_a], surfaces[joins[i].patch_b], joins[i], request);
-    });
+  for_each_item(jobs, joins.size(), [&](std::size_t i) {
+    out[i] = certify_blended_join(surfaces[joins[i].patch_a], surfaces[joins[i].patch_b], joins[i], request);
   });
   return out;
 }

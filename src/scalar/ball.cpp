@@ -10,7 +10,15 @@
 namespace patchproof {
 namespace {
 thread_local int current_precision = 128;
-}
+
+// MPFR keeps π, logarithms and scratch numbers for each thread, and loses them when it ends.
+struct KeptByMpfr {
+  ~KeptByMpfr() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+  void given_back_at_the_end() {}
+};
+thread_local KeptByMpfr kept_by_mpfr;
+
+}  // namespace
 
 BallPrecision::BallPrecision(int bits) : previous_(current_precision) {
   PATCHPROOF_REQUIRES(bits >= 2, "BallPrecision: a precision of at least 2 bits");
@@ -97,26 +105,31 @@ Ball sqrt(const Ball& a) {
 }
 Ball atan(const Ball& a) {
   Ball r;
+  kept_by_mpfr.given_back_at_the_end();
   mpfi_atan(r.x_, a.x_);
   return r;
 }
 Ball exp(const Ball& a) {
   Ball r;
+  kept_by_mpfr.given_back_at_the_end();
   mpfi_exp(r.x_, a.x_);
   return r;
 }
 Ball sin(const Ball& a) {
   Ball r;
+  kept_by_mpfr.given_back_at_the_end();
   mpfi_sin(r.x_, a.x_);
   return r;
 }
 Ball cos(const Ball& a) {
   Ball r;
+  kept_by_mpfr.given_back_at_the_end();
   mpfi_cos(r.x_, a.x_);
   return r;
 }
 Ball Ball::pi() {
   Ball r;
+  kept_by_mpfr.given_back_at_the_end();
   mpfi_const_pi(r.x_);
   return r;
 }

@@ -69,7 +69,10 @@ std::optional<int> half_turns(const Interval& x) {
 }  // namespace
 
 double Circular<double>::pi() {
-  static const double value = Series::middle(Ball::pi());
+  static const double value = [] {  // whatever precision the first caller has
+    const BallPrecision precision(128);
+    return Series::middle(Ball::pi());
+  }();
   return value;
 }
 

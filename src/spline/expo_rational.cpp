@@ -317,7 +317,8 @@ std::shared_ptr<const Panels> ExpoRational::panels() const {
   const int bits = (BallPrecision::current() + 31) / 32 * 32 + 32;
   const std::lock_guard lock(mutex_);
   auto& place = built_[bits];
-  if (!place) {
+  if (!place) {  // the same panels, whoever asks first
+    const RoundingGuard nearest(CGAL_FE_TONEAREST);
     const BallPrecision precision(bits);
     place = std::make_shared<const Panels>(build());
   }

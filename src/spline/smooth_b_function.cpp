@@ -159,7 +159,10 @@ std::vector<double> smooth_derivatives(const SmoothBFunction& b, double t, int o
 }
 
 const DoubleTable& SmoothBFunction::table() const {
-  std::call_once(once_, [this] { table_ = std::make_unique<const DoubleTable>(*this); });
+  std::call_once(once_, [this] {  // the same table, whoever asks first
+    const RoundingGuard nearest(CGAL_FE_TONEAREST);
+    table_ = std::make_unique<const DoubleTable>(*this);
+  });
   return *table_;
 }
 

@@ -13,11 +13,12 @@
 //          usable is refused, or left out, listed with the reason, and its edges are unusable;  (4) a face that stands in
 //          several places of an assembly is as many faces, each in its place;  (5) certify_cad's report does not depend on
 //          the number of jobs;  (6) where a surface is approximated, that is said with its figures, and a tolerance is
-//          passed or failed only if it is with what they may add or take.
+//          passed or failed only if it is with what they may add or take;  (7) any number of threads may read: Open CASCADE
+//          keeps settings of the process, so they wait for each other, and std::cout and std::cerr are silent meanwhile.
 // ERRORS   of read_cad_model: cannot_open, empty_input, syntax (Open CASCADE cannot read the file, or a part of a face; in BREP
 //          files with the line), bad_reference (BREP: an index of nothing), wrong_count (neither faces nor edges); of the first face
 //          that is not usable, whose label stands in `where`: unsupported, vanishing_weight, bad_number and those of knots.
-// TEST     tests/io/cad_test.cpp
+// TEST     tests/io/cad_test.cpp; tests/io/occt/read_threads_test.cpp (7)
 #pragma once
 
 #include <array>

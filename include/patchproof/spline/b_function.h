@@ -23,7 +23,9 @@
 //          remainders of order N + 1;
 //          (7) double: |derivative k − exact| ≤ double_error(b, k), k ≤ 3, and values lie in [0, 1], are 0 and 1 at the ends,
 //          and are ordered wherever the exact ones differ by 2·double_error(b, 0) or more; no NaN;
-//          (8) parse(to_string()) is the same function;  (9) parameters that make no B-function are errors, with the place.
+//          (8) parse(to_string()) is the same function;  (9) parameters that make no B-function are errors, with the place;
+//          (10) the tables of logistic and expo-rational functions are the same bits whoever asks first, in any rounding and
+//          precision; then they never change: any number of threads may use one function, or equal ones.
 // SCALARS  exact functions: any Field into which Rational embeds. Others: Transcendental, and Rational and Quadratic at t = 0
 //          and t = 1 for the derivatives that are exactly 0 there (contract_error beyond).
 // ERRORS   usage: an order below 0 or above kMaxOrder; λ not in (0, 1), where a derivative at an end would not vanish; α, β, γ
@@ -31,10 +33,12 @@
 //          not_monotone: a polynomial whose derivative is negative somewhere, with the place where it changes sign, or with
 //          B(0) ≠ 0 or B(1) ≠ 1.
 // COST     exact: O(n²) per derivative. Ball of expo-rational: some hundred products, after tables that are built once per
-//          precision. double: one polynomial of degree 15 up to k = 3; higher derivatives go through Ball.
+//          32 bits of precision (a tenth of a second to one; who asks meanwhile waits) and shared by equal functions. double: one
+//          polynomial of degree 15 up to k = 3; higher derivatives go through Ball.
 // SOURCE   L. Dechevsky, A. Lakså, B. Bang, Expo-rational B-splines, IJPAM 27 (2006); certified panels: Cauchy's estimate.
 // NEIGHBOURS bernstein.h, real_roots.h; gerbs_curve.h.
-// TEST     tests/spline/b_function_test.cpp (1)–(4), (8), (9); tests/spline/b_function_bounds_test.cpp (5)–(7).
+// TEST     tests/spline/b_function_test.cpp (1)–(4), (8), (9); tests/spline/b_function_bounds_test.cpp (5)–(7);
+//          tests/threads/b_function_test.cpp (10).
 #pragma once
 
 #include <memory>

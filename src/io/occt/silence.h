@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Open CASCADE speaks to the user through printers, and in places through std::cout; its words are not ours.
+// Open CASCADE speaks to the user through printers, and in places through std::cout; its words are not ours. These belong to the
+// whole process, as do the settings and tables of its readers and writers, so there is one Silence at a time: others wait.
 #pragma once
 
 #include <Message.hxx>
@@ -7,6 +8,7 @@
 #include <Message_Printer.hxx>
 
 #include <iostream>
+#include <mutex>
 #include <streambuf>
 
 namespace patchproof::occt {
@@ -14,7 +16,8 @@ namespace patchproof::occt {
 class Silence {
  public:
   Silence()
-      : printers_(Message::DefaultMessenger()->Printers()),
+      : turn_(one_at_a_time()),
+        printers_(Message::DefaultMessenger()->Printers()),
         out_(std::cout.rdbuf(&nowhere_)),
         err_(std::cerr.rdbuf(&nowhere_)) {
     Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
@@ -32,6 +35,12 @@ class Silence {
     int overflow(int c) override { return c; }
   };
 
+  static std::mutex& one_at_a_time() {
+    static std::mutex mutex;
+    return mutex;
+  }
+
+  const std::lock_guard<std::mutex> turn_;
   Nowhere nowhere_;
   const Message_SequenceOfPrinters printers_;
   std::streambuf *const out_, *const err_;

@@ -19,9 +19,11 @@
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -70,6 +72,28 @@ std::string plain(const std::string& name) {
     out += 0x20 <= byte && byte < 0x7f && c != '\'' ? c : '?';
   }
   return out;
+}
+
+// Open CASCADE counts what a process writes, "patchproof 3.1"; here everything is the first.
+constexpr const char* kProduct = "patchproof";
+opencascade::handle<TCollection_HAsciiString> as_the_first(const opencascade::handle<TCollection_HAsciiString>& name) {
+  const std::string text = name.IsNull() ? "" : name->ToCString(), counted = std::string(kProduct) + " ";
+  if (text.rfind(counted, 0) != 0) return name;
+  const std::size_t end = text.find_first_not_of("0123456789", counted.size());
+  const std::string rest = end == std::string::npos ? "" : text.substr(end);
+  return new TCollection_HAsciiString((counted + "1" + rest).c_str());
+}
+void count_from_one(const opencascade::handle<StepData_StepModel>& model) {
+  int uses = 0;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto entity = model->Entity(i);
+    if (const auto product = opencascade::handle<StepBasic_Product>::DownCast(entity); !product.IsNull()) {
+      product->SetId(as_the_first(product->Id()));
+      product->SetName(as_the_first(product->Name()));
+    }
+    if (const auto use = opencascade::handle<StepRepr_NextAssemblyUsageOccurrence>::DownCast(entity); !use.IsNull())
+      use->SetId(new TCollection_HAsciiString(std::to_string(++uses).c_str()));
+  }
 }
 
 // Distinct knots with their multiplicities.
@@ -235,7 +259,7 @@ class CadWriter {
   bool write_step(std::ostream& out) const {
     STEPControl_Controller::Init();
     Interface_Static::SetCVal("write.step.unit", "MM");
-    Interface_Static::SetCVal("write.step.product.name", "patchproof");
+    Interface_Static::SetCVal("write.step.product.name", kProduct);
     STEPControl_Writer writer;
     if (writer.Transfer(compound(), STEPControl_AsIs) != IFSelect_RetDone) return false;
     const auto model = opencascade::handle<StepData_StepModel>::DownCast(writer.WS()->Model());
@@ -244,6 +268,7 @@ class CadWriter {
       const auto item = STEPConstruct::FindEntity(writer.WS()->TransferWriter()->FinderProcess(), part.shape);
       if (!item.IsNull()) item->SetName(new TCollection_HAsciiString(plain(part.name).c_str()));
     }
+    count_from_one(model);
     APIHeaderSection_MakeHeader header(model);
     header.SetName(new TCollection_HAsciiString("patchproof"));
     header.SetTimeStamp(new TCollection_HAsciiString("1970-01-01T00:00:00"));  // the same model, the same bytes
