@@ -2,22 +2,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
-#include <set>
 
 #include "cli/commands.h"
 #include "patchproof/io/curve_mesh_file.h"
+#include "patchproof/io/fill_model.h"
 #include "patchproof/io/write.h"
-#include "patchproof/mesh/prove_fill.h"
-#include "patchproof/mesh/repair_mesh.h"
-#include "patchproof/mesh/split_faces.h"
 
 namespace patchproof::cli {
 namespace {
@@ -35,94 +28,65 @@ std::string plural(std::size_t count, const char* one, const char* more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-struct Tally {
-  int proven = 0, refuted = 0, undecided = 0;
-  void add(Verdict verdict) {
-    ++(verdict == Verdict::proven ? proven : verdict == Verdict::refuted ? refuted : undecided);
-  }
-  int exit_code() const { return refuted > 0 ? kRefuted : undecided > 0 ? kUndecided : kProven; }
-  std::string text() const {
-    std::string out = fmt::format("{} proven", proven);
-    if (refuted > 0) out += fmt::format(", {} refuted", refuted);
-    if (undecided > 0) out += fmt::format(", {} undecided", undecided);
-    return out;
-  }
-};
-
-std::string place_of(const CurveMesh& mesh, const MeshJoin& join) {
-  return fmt::format("edge {}, faces {} and {}", mesh.edges[join.edge].id, mesh.faces[join.join.patch_a].id,
-                     mesh.faces[join.join.patch_b].id);
+std::string text_of(const VerdictTally& tally) {
+  std::string out = fmt::format("{} proven", tally.proven);
+  if (tally.refuted > 0) out += fmt::format(", {} refuted", tally.refuted);
+  if (tally.undecided > 0) out += fmt::format(", {} undecided", tally.undecided);
+  return out;
 }
 
-// The largest angle between the tangent planes of faces at one node of an edge, about, in degrees.
-double angle_at_nodes(const MeshTopology& topology, int edge) {
-  std::map<Rational, std::vector<Vec<double, 3>>> normals;
-  for (const std::vector<int>* side : {&topology.left[edge], &topology.right[edge]})
-    for (const int index : *side) {
-      const EdgeUse& use = topology.uses[index];
-      for (const bool at_end : {false, true}) {
-        const Rational& t = at_end ? use.end() : use.begin();
-        const Vec<Rational, 3> n = outward_normal(topology, use, t, at_end ? use.end_derivative : use.begin_derivative);
-        const Rational size = std::max({Rational(abs(n[0])), Rational(abs(n[1])), Rational(abs(n[2]))});
-        normals[t].push_back({{nearest_double(n[0] / size), nearest_double(n[1] / size), nearest_double(n[2] / size)}});
-      }
-    }
-  double largest = 0;
-  for (const auto& at : normals)
-    for (const Vec<double, 3>& n : at.second) {
-      const Vec<double, 3>& first = at.second.front();
-      const Vec<double, 3> c = cross(first, n);
-      largest = std::max(largest, std::atan2(std::sqrt(dot(c, c)), dot(first, n)) * 180 / std::numbers::pi);
-    }
-  return largest;
+// What was done to the mesh before it was filled.
+std::string preparation_of(const FilledModel& filled, const std::string& units) {
+  std::string out;
+  if (filled.repair) {
+    out += fmt::format("repaired: {} moved, by at most {} {}\n",
+                       plural(filled.repair->moved, "point or vector", "points and vectors"),
+                       to_text(filled.repair->largest), units);
+    if (!filled.repair->edges.empty()) out += fmt::format("  of edges {}\n", fmt::join(filled.repair->edges, ", "));
+    for (const std::string& vertex : filled.repair->vertices)
+      out += fmt::format("  vertex {}: its tangents are farther from one plane, and stay\n", vertex);
+  }
+  if (filled.split)
+    out += fmt::format("split: {} not of four sides; {} in place of {}\n", plural(filled.split->faces, "face", "faces"),
+                       plural(filled.split->after, "face", "faces"), filled.split->before);
+  return out;
 }
 
-struct Findings {
-  Tally g1, c1, regular;
-  std::string lines;
-};
-
-Findings judge(const CurveMesh& mesh, const MeshTopology& topology, const FillProof& proof) {
-  Findings out;
-  for (std::size_t i = 0; i < proof.joins.size(); ++i) {
-    const MeshJoin& join = proof.joins[i];
-    const Certificate& c = proof.certificates[i];
-    const std::string place = place_of(mesh, join);
-    if (topology.kinds[join.edge] == EdgeKind::sharp) {
-      constexpr double kNearlySmooth = 1;  // degrees
-      const double at_nodes = angle_at_nodes(topology, join.edge);
-      out.lines += fmt::format(
+// Joins and faces of which not everything is proven, one on each line.
+std::string exceptions_of(const FilledModel& filled) {
+  std::string out;
+  for (const FilledJoin& join : filled.joins) {
+    const std::string place = fmt::format("edge {}, faces {} and {}", join.edge, join.face_a, join.face_b);
+    constexpr double kNearlySmooth = 1;  // degrees
+    if (join.kind == EdgeKind::sharp)
+      out += fmt::format(
           "  {}: sharp, its faces' tangent planes are {:.2g} degrees apart at a node{}; largest angle in [{:.5g}, "
           "{:.5g}] degrees\n",
-          place, at_nodes, at_nodes < kNearlySmooth ? " (--repair would make them one)" : "", c.angle.lower,
-          c.angle.upper);
-      continue;
-    }
-    const Verdict verdict = c.c0.verdict == Verdict::proven ? c.g1.verdict : c.c0.verdict;
-    out.g1.add(verdict);
-    if (verdict != Verdict::proven)
-      out.lines += fmt::format("  {}: G1 {}: {}\n", place, to_string(verdict), c.g1.reason);
+          place, join.angle_at_nodes, join.angle_at_nodes < kNearlySmooth ? " (--repair would make them one)" : "",
+          join.angle.lower, join.angle.upper);
+    else if (join.verdict != Verdict::proven)
+      out += fmt::format("  {}: G1 {}: {}\n", place, to_string(join.verdict), join.reason);
   }
-  for (std::size_t f = 0; f < proof.patches.size(); ++f) {
-    const GregoryProof& p = proof.patches[f];
-    out.c1.add(p.is_c1() ? Verdict::proven : Verdict::refuted);
-    out.regular.add(p.regular.verdict);
-    const std::string place = "face " + mesh.faces[f].id;
+  for (const FilledFace& face : filled.faces) {
+    const GregoryProof& p = face.proof;
     if (!p.is_c1())
-      out.lines += fmt::format("  {}: C1 refuted: {}\n", place,
-                               !p.c1 ? "the derivatives across a knot line jump" : "the three surfaces do not fit");
+      out += fmt::format("  face {}: C1 refuted: {}\n", face.face,
+                         !p.c1 ? "the derivatives across a knot line jump" : "the three surfaces do not fit");
     if (p.regular.verdict != Verdict::proven)
-      out.lines += fmt::format("  {}: regular {}: {}\n", place, to_string(p.regular.verdict), p.regular.reason);
+      out += fmt::format("  face {}: regular {}: {}\n", face.face, to_string(p.regular.verdict), p.regular.reason);
   }
   return out;
 }
 
-// A rational number a little above the sine of an angle of at most 30 degrees.
-Rational sine_of(double degrees) { return from_double(std::sin(degrees * std::numbers::pi / 180) * (1 + 1e-12)); }
-
 Error at(const std::string& path, Error error) {
   error.where = error.where.empty() ? path : path + ", " + error.where;
   return error;
+}
+
+// Empty: by the mesh.
+std::optional<NodeScale> scale_of(const std::string& word) {
+  if (word == "auto") return std::nullopt;
+  return word == "rational" ? NodeScale::rational : NodeScale::none;
 }
 
 int run(const Options& options) {
@@ -137,72 +101,26 @@ int run(const Options& options) {
   std::error_code ignored;
   if (options.to != "-" && std::filesystem::equivalent(options.from, options.to, ignored))
     return report_error({ErrorCode::usage, "fill", "would overwrite its input", options.to});
-  std::string text;
-  CurveMesh mesh = std::move(file->mesh);
-  if (options.repair) {
-    Result<RepairedMesh> repaired = repair_mesh(mesh, {sine_of(*options.repair)});
-    if (!repaired) return report_error(at(options.from, repaired.error()));
-    text += fmt::format("repaired: {} moved, by at most {} {}\n",
-                        plural(repaired->moves.size(), "point or vector", "points and vectors"),
-                        to_text(repaired->largest), file->units);
-    std::set<std::string> edges;
-    for (const RepairMove& move : repaired->moves)
-      edges.insert(mesh.edges[move.part == RepairMove::Part::left_vector || move.part == RepairMove::Part::right_vector
-                                  ? mesh.control_vectors[move.index].edge
-                                  : move.edge]
-                       .id);
-    if (!edges.empty()) text += fmt::format("  of edges {}\n", fmt::join(edges, ", "));
-    for (const int v : repaired->vertices)
-      text += fmt::format("  vertex {}: its tangents are farther from one plane, and stay\n", mesh.vertices[v].id);
-    mesh = std::move(repaired->mesh);
-  }
-  const std::size_t faces = mesh.faces.size();
-  const auto other =
-      std::count_if(mesh.faces.begin(), mesh.faces.end(), [](const MeshFace& f) { return f.sides.size() != 4; });
-  // Vectors across an edge become uneven in length at T-nodes, and those of a split face are T-nodes.
-  const bool uneven = other > 0 || !mesh.t_nodes.empty();
-  const FillOptions fill{
-      options.scale == "rational" || (options.scale == "auto" && uneven) ? NodeScale::rational : NodeScale::none,
-      options.method == "former" ? FillMethod::former : FillMethod::c1};
-  if (other > 0) {
-    Result<CurveMesh> split = split_faces(mesh, fill);
-    if (!split) return report_error(at(options.from, split.error()));
-    text += fmt::format("split: {} not of four sides; {} in place of {}\n", plural(other, "face", "faces"),
-                        plural(split->faces.size(), "face", "faces"), faces);
-    mesh = std::move(*split);
-  }
-  const Result<MeshTopology> topology = analyse(mesh);
-  if (!topology) return report_error(at(options.from, topology.error()));
-  Result<FilledMesh<Rational>> filled = fill_faces<Rational>(mesh, *topology, fill, options.jobs);
-  if (!filled) {
-    Error error = at(options.from, filled.error());
-    if (other > 0) error.message += " (edges F/0, F/1, … are those that face F was split along)";
-    return report_error(error);
-  }
-  const FillProof proof = prove_fill(mesh, *topology, filled->patches, {}, options.jobs);
-  const Findings findings = judge(mesh, *topology, proof);
+  const FillRequest request{options.method == "former" ? FillMethod::former : FillMethod::c1, scale_of(options.scale),
+                            options.repair, options.jobs};
+  const Result<FilledModel> filled = fill_model(std::move(file->mesh), request, file->units);
+  if (!filled) return report_error(at(options.from, filled.error()));
+  if (const int failed = write_output(options.to, write_model_json(filled->model))) return failed;
 
-  Model<Rational> model;
-  model.units = file->units;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    model.gregory_patches.push_back({mesh.faces[f].id, std::move(filled->patches[f])});
-  if (const int failed = write_output(options.to, write_model_json(model))) return failed;
-
-  const auto count = [&](EdgeKind kind) { return std::count(topology->kinds.begin(), topology->kinds.end(), kind); };
-  text += fmt::format("{}: {}, {} ({} smooth, {} sharp, {} boundary)\n", options.from,
-                      plural(mesh.faces.size(), "face", "faces"), plural(mesh.edges.size(), "edge", "edges"),
-                      count(EdgeKind::smooth), count(EdgeKind::sharp), count(EdgeKind::boundary));
-  if (!options.quiet) text += findings.lines;
+  std::string text = preparation_of(*filled, file->units);
+  text +=
+      fmt::format("{}: {}, {} ({} smooth, {} sharp, {} boundary)\n", options.from,
+                  plural(filled->mesh.faces.size(), "face", "faces"),
+                  plural(filled->mesh.edges.size(), "edge", "edges"), filled->smooth, filled->sharp, filled->boundary);
+  if (!options.quiet) text += exceptions_of(*filled);
   text += fmt::format("G1 across smooth edges: {}\nC1 inside patches: {}\nnormal nowhere zero: {}\n",
-                      findings.g1.text(), findings.c1.text(), findings.regular.text());
+                      text_of(filled->g1), text_of(filled->c1), text_of(filled->regular));
   if (options.to == "-")  // where the model is
     std::fputs(text.c_str(), stderr);
   else if (const int failed = write_output("-", text))
     return failed;
-  const int codes[] = {findings.g1.exit_code(), findings.c1.exit_code(), findings.regular.exit_code()};
-  return std::count(std::begin(codes), std::end(codes), kRefuted) > 0
-             ? kRefuted
-             : *std::max_element(std::begin(codes), std::end(codes));
+  const Verdict verdict = filled->verdict();
+  return verdict == Verdict::refuted ? kRefuted : verdict == Verdict::undecided ? kUndecided : kProven;
 }
 
 }  // namespace
