@@ -1,30 +1,23 @@
-# What packages.txt installs, as targets. Read by our own build and by users of the installed package.
+# What packages.txt installs, as targets. What users of the installed C++ libraries need stands in patchproof-config.cmake.in.
 find_package(CGAL REQUIRED)  # brings GMP, MPFR and Boost's headers; only its LGPL parts are used
 find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(fmt REQUIRED)
-if(PROJECT_NAME STREQUAL "patchproof")
-  find_package(CLI11 REQUIRED)  # the program only
-  find_path(PATCHPROOF_HWY_INCLUDE_DIR hwy/highway.h REQUIRED)  # SIMD; headers only, used by the kernels' own files
-  find_path(PATCHPROOF_EIGEN_SOLVER_INCLUDE_DIR Eigen/SparseCholesky PATH_SUFFIXES eigen3 REQUIRED)  # fits in doubles
-  mark_as_advanced(PATCHPROOF_HWY_INCLUDE_DIR PATCHPROOF_EIGEN_SOLVER_INCLUDE_DIR)
-endif()
-
-find_library(PATCHPROOF_MPFI_LIBRARY mpfi REQUIRED)
+find_package(CLI11 REQUIRED)  # the program only
+find_path(PATCHPROOF_HWY_INCLUDE_DIR hwy/highway.h REQUIRED)  # SIMD; headers only, used by the kernels' own files
+find_path(PATCHPROOF_EIGEN_SOLVER_INCLUDE_DIR Eigen/SparseCholesky PATH_SUFFIXES eigen3 REQUIRED)  # fits in doubles
 find_path(PATCHPROOF_MPFI_INCLUDE_DIR mpfi.h REQUIRED)
-find_library(PATCHPROOF_MD_LIBRARY md REQUIRED)  # SHA-256
-mark_as_advanced(PATCHPROOF_MPFI_LIBRARY PATCHPROOF_MPFI_INCLUDE_DIR PATCHPROOF_MD_LIBRARY)
-foreach(name mpfi md)
+mark_as_advanced(PATCHPROOF_HWY_INCLUDE_DIR PATCHPROOF_EIGEN_SOLVER_INCLUDE_DIR PATCHPROOF_MPFI_INCLUDE_DIR)
+include(${CMAKE_CURRENT_LIST_DIR}/number_libraries.cmake)
+foreach(name mpfi md)  # enclosures; SHA-256
   if(NOT TARGET patchproof_${name})
-    string(TOUPPER ${name} upper)
-    add_library(patchproof_${name} INTERFACE IMPORTED)
-    target_link_libraries(patchproof_${name} INTERFACE ${PATCHPROOF_${upper}_LIBRARY})
+    message(FATAL_ERROR "patchproof: lib${name} was not found; Debian's package is lib${name}-dev")
   endif()
 endforeach()
 
 # Peers: other people's kernels, held against the exact values and timed (validation/README.md). None is needed.
-if(PROJECT_NAME STREQUAL "patchproof" AND PATCHPROOF_PEERS)
+if(PATCHPROOF_PEERS)
   find_path(PATCHPROOF_OCCT_INCLUDE_DIR Geom_BSplineSurface.hxx PATH_SUFFIXES opencascade)
   find_path(PATCHPROOF_SISL_INCLUDE_DIR sisl.h)
   find_library(PATCHPROOF_SISL_LIBRARY sisl)
@@ -62,7 +55,7 @@ if(PROJECT_NAME STREQUAL "patchproof" AND PATCHPROOF_PEERS)
 endif()
 
 # Open CASCADE: STEP, IGES and BREP files (patchproof::occt). Not needed by anything else.
-if(PROJECT_NAME STREQUAL "patchproof" AND PATCHPROOF_OCCT)
+if(PATCHPROOF_OCCT)
   find_path(PATCHPROOF_OCCT_STEP_INCLUDE_DIR STEPControl_Reader.hxx PATH_SUFFIXES opencascade)
   mark_as_advanced(PATCHPROOF_OCCT_STEP_INCLUDE_DIR)
   set(PATCHPROOF_OCCT_LIBRARIES)

@@ -1,17 +1,36 @@
+# What `cmake --install` puts in place, in the components that become packages (cmake/packages.cmake):
+#   runtime  libpatchproof.so.N        dev  headers, static libraries, CMake and pkg-config files
+#   tools    the program               python  (python/CMakeLists.txt)
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/patchproof)
+set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
-install(TARGETS patchproof_exact patchproof_kernels patchproof_all EXPORT patchproof-targets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS patchproof_c EXPORT patchproof-c
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
+install(TARGETS patchproof_c_static ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+install(TARGETS patchproof_exact patchproof_kernels patchproof_all EXPORT patchproof-cxx
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
 if(TARGET patchproof_program)
-  install(TARGETS patchproof_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS patchproof_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
 endif()
-install(DIRECTORY include/patchproof DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT patchproof-targets NAMESPACE patchproof:: DESTINATION ${config_dir})
+install(DIRECTORY include/patchproof DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 
-configure_package_config_file(cmake/patchproof-config.cmake.in
-  ${CMAKE_CURRENT_BINARY_DIR}/patchproof-config.cmake INSTALL_DESTINATION ${config_dir})
+# find_package(patchproof COMPONENTS c | c_static | cxx)
+install(EXPORT patchproof-c NAMESPACE patchproof:: FILE patchproof-c.cmake DESTINATION ${config_dir} COMPONENT dev)
+install(EXPORT patchproof-cxx NAMESPACE patchproof:: FILE patchproof-cxx.cmake DESTINATION ${config_dir} COMPONENT dev)
+configure_package_config_file(cmake/patchproof-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/patchproof-config.cmake
+  INSTALL_DESTINATION ${config_dir} PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/patchproof-config-version.cmake
   COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/patchproof-config.cmake
-  ${CMAKE_CURRENT_BINARY_DIR}/patchproof-config-version.cmake cmake/dependencies.cmake DESTINATION ${config_dir})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/patchproof-config.cmake cmake/patchproof-c_static.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/patchproof-config-version.cmake cmake/number_libraries.cmake
+  DESTINATION ${config_dir} COMPONENT dev)
+
+# pkg-config, relative to where the files lie.
+file(RELATIVE_PATH PATCHPROOF_PREFIX_FROM_PC /${pkgconfig_dir} /)
+string(REGEX REPLACE "/$" "" PATCHPROOF_PREFIX_FROM_PC "${PATCHPROOF_PREFIX_FROM_PC}")
+set(PATCHPROOF_LINKED "-ltbb -lmpfi -lmpfr -lgmp -lfmt -lpugixml -lmd")
+foreach(name patchproof patchproof-static patchproof-cxx)
+  configure_file(cmake/${name}.pc.in ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig_dir} COMPONENT dev)
+endforeach()

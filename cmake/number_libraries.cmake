@@ -1,0 +1,10 @@
+# MPFI and libmd come without CMake files. For our own build and for users of patchproof::exact.
+foreach(name mpfi md)
+  string(TOUPPER ${name} upper)
+  find_library(PATCHPROOF_${upper}_LIBRARY ${name})
+  mark_as_advanced(PATCHPROOF_${upper}_LIBRARY)
+  if(NOT TARGET patchproof_${name} AND PATCHPROOF_${upper}_LIBRARY)
+    add_library(patchproof_${name} INTERFACE IMPORTED)
+    target_link_libraries(patchproof_${name} INTERFACE ${PATCHPROOF_${upper}_LIBRARY})
+  endif()
+endforeach()
