@@ -423,7 +423,7 @@ typedef struct {
   size_t faces, smooth_edges, sharp_edges, boundary_edges;
   size_t g1[3], c1[3],
       regular[3]; /**< how many are proven, refuted, undecided: edges between faces, patches, normals of patches */
-  patchproof_text findings; /**< what is not proven, one to a line; lives as long as the model */
+  patchproof_text findings; /**< sharp edges and what is not proven, one to a line; lives as long as the model */
 } patchproof_fill_summary;
 /** A curve mesh (the bytes of a file of docs/formats.md, "Curve meshes") filled with one Gregory patch for each face, and
  *  the proofs of it. */

@@ -52,32 +52,6 @@ std::string preparation_of(const FilledModel& filled, const std::string& units) 
   return out;
 }
 
-// Joins and faces of which not everything is proven, one on each line.
-std::string exceptions_of(const FilledModel& filled) {
-  std::string out;
-  for (const FilledJoin& join : filled.joins) {
-    const std::string place = fmt::format("edge {}, faces {} and {}", join.edge, join.face_a, join.face_b);
-    constexpr double kNearlySmooth = 1;  // degrees
-    if (join.kind == EdgeKind::sharp)
-      out += fmt::format(
-          "  {}: sharp, its faces' tangent planes are {:.2g} degrees apart at a node{}; largest angle in [{:.5g}, "
-          "{:.5g}] degrees\n",
-          place, join.angle_at_nodes, join.angle_at_nodes < kNearlySmooth ? " (--repair would make them one)" : "",
-          join.angle.lower, join.angle.upper);
-    else if (join.verdict != Verdict::proven)
-      out += fmt::format("  {}: G1 {}: {}\n", place, to_string(join.verdict), join.reason);
-  }
-  for (const FilledFace& face : filled.faces) {
-    const GregoryProof& p = face.proof;
-    if (!p.is_c1())
-      out += fmt::format("  face {}: C1 refuted: {}\n", face.face,
-                         !p.c1 ? "the derivatives across a knot line jump" : "the three surfaces do not fit");
-    if (p.regular.verdict != Verdict::proven)
-      out += fmt::format("  face {}: regular {}: {}\n", face.face, to_string(p.regular.verdict), p.regular.reason);
-  }
-  return out;
-}
-
 Error at(const std::string& path, Error error) {
   error.where = error.where.empty() ? path : path + ", " + error.where;
   return error;
@@ -112,7 +86,8 @@ int run(const Options& options) {
       fmt::format("{}: {}, {} ({} smooth, {} sharp, {} boundary)\n", options.from,
                   plural(filled->mesh.faces.size(), "face", "faces"),
                   plural(filled->mesh.edges.size(), "edge", "edges"), filled->smooth, filled->sharp, filled->boundary);
-  if (!options.quiet) text += exceptions_of(*filled);
+  if (!options.quiet)
+    for (const std::string& line : exceptions_of(*filled)) text += "  " + line + "\n";
   text += fmt::format("G1 across smooth edges: {}\nC1 inside patches: {}\nnormal nowhere zero: {}\n",
                       text_of(filled->g1), text_of(filled->c1), text_of(filled->regular));
   if (options.to == "-")  // where the model is

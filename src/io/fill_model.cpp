@@ -128,4 +128,29 @@ Result<FilledModel> fill_model(CurveMesh mesh, const FillRequest& request, const
   return out;
 }
 
+std::vector<std::string> exceptions_of(const FilledModel& filled) {
+  std::vector<std::string> out;
+  for (const FilledJoin& join : filled.joins) {
+    const std::string place = fmt::format("edge {}, faces {} and {}", join.edge, join.face_a, join.face_b);
+    constexpr double kNearlySmooth = 1;  // degrees
+    if (join.kind == EdgeKind::sharp)
+      out.push_back(fmt::format(
+          "{}: sharp, its faces' tangent planes are {:.2g} degrees apart at a node{}; largest angle in [{:.5g}, "
+          "{:.5g}] degrees",
+          place, join.angle_at_nodes, join.angle_at_nodes < kNearlySmooth ? " (--repair would make them one)" : "",
+          join.angle.lower, join.angle.upper));
+    else if (join.verdict != Verdict::proven)
+      out.push_back(fmt::format("{}: G1 {}: {}", place, to_string(join.verdict), join.reason));
+  }
+  for (const FilledFace& face : filled.faces) {
+    const GregoryProof& p = face.proof;
+    if (!p.is_c1())
+      out.push_back(fmt::format("face {}: C1 refuted: {}", face.face,
+                                !p.c1 ? "the derivatives across a knot line jump" : "the three surfaces do not fit"));
+    if (p.regular.verdict != Verdict::proven)
+      out.push_back(fmt::format("face {}: regular {}: {}", face.face, to_string(p.regular.verdict), p.regular.reason));
+  }
+  return out;
+}
+
 }  // namespace patchproof

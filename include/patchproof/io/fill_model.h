@@ -6,14 +6,14 @@
 //   fill     a Gregory patch for each face (mesh/fill_faces.h)
 //   prove    every edge between two faces, and every patch by itself (mesh/prove_fill.h)
 //
-// ENSURES   (1) model: one Gregory patch for each face of `mesh`, in its order and with its id as name;  (2) `mesh` is the mesh
-//           that was given, repaired and split where that was asked for or needed, and else itself;  (3) joins: one for each piece
-//           of an edge that two faces share, in the order of the edges, with the certificate's verdict: of G1, or of C0 where that is
-//           not proven;  (4) the tallies count: g1 the joins of smooth edges, c1 and regular the faces;  (5) the result does not
-//           depend on the number of threads.
-// ERRORS    usage: a repair angle that is not between 0 and 30 degrees; those of repair_mesh, split_faces, analyse and fill_faces,
-//           whose `where` names an edge, face or vertex by its id. What is refuted is no error but a finding. Throws stop_requested or
-//           deadline_passed under a StopScope that is raised.
+// ENSURES   (1) model: one Gregory patch for each face of `mesh`, in its order and with its id as name;  (2) `mesh` is the
+//           mesh that was given, repaired and split where that was asked for or needed, and else itself;  (3) joins: one for
+//           each piece of an edge that two faces share, in the order of the edges, with the certificate's verdict: of G1, or of
+//           C0 where that is not proven;  (4) the tallies count: g1 the joins of smooth edges, c1 and regular the faces;
+//           (5) the result does not depend on the number of threads.
+// ERRORS    usage: a repair angle that is not between 0 and 30 degrees; those of repair_mesh, split_faces, analyse, fill_faces,
+//           whose `where` names an edge, face or vertex by its id. What is refuted is no error but a finding. Throws
+//           stop_requested or deadline_passed under a StopScope that is raised.
 // COST      about 3 ms for each face.
 // NEIGHBOURS curve_mesh_file.h (reads meshes), write.h (writes models), report.h (certifies any model).
 // TEST      tests/io/fill_model_test.cpp checks (1)–(5).
@@ -58,8 +58,8 @@ struct FilledJoin {
   Verdict verdict = Verdict::undecided;
   std::string reason;     // where it is not proven
   EnclosedMaximum angle;  // largest angle between the normals along it, in degrees
-  double angle_at_nodes =
-      0;  // of a sharp edge: the largest angle between tangent planes of faces at a node, about, in degrees
+  // Of a sharp edge: the largest angle between tangent planes of faces at a node, about, in degrees.
+  double angle_at_nodes = 0;
 };
 
 struct FilledFace {
@@ -89,5 +89,8 @@ struct FilledModel {
 };
 
 Result<FilledModel> fill_model(CurveMesh mesh, const FillRequest& request = {}, const std::string& units = "");
+
+// One line for each sharp edge, and for each join and face of which not everything is proven.
+std::vector<std::string> exceptions_of(const FilledModel& filled);
 
 }  // namespace patchproof
