@@ -102,7 +102,7 @@ Result<ModelValues<R>> values(const GregoryPatch<T>& patch, const PlaceAsked<T>&
   if ((u == T(0) || u == T(1)) && (v == T(0) || v == T(1))) {
     if (a.order > 1)
       return Error{ErrorCode::unsupported, "derivatives",
-                   "a Gregory patch has no second derivatives at its corners, only limits along the edges", a.shown};
+                   "a Gregory patch has no second derivatives at its corners, only limits along the edges", a.shown()};
     const SurfaceFrame<T> s = frame(patch, u, v);
     return rows<R>(PartialDerivatives<T, 3>(1, 1, {s.point, s.dv, s.du, {}}), a.order);
   }
@@ -164,8 +164,11 @@ Result<ModelValues<R>> values(const TransfiniteMap<T, 3, 4>& map, const PlaceAsk
 template <Ring R, ExactField T>
 Result<ModelValues<R>> values(const AnyPart<T>& part, const PartDomain<T>& domain, const ModelPlace<T>& place,
                               int order) {
-  std::string shown;
-  for (const T& x : place.at) shown += (shown.empty() ? "" : ",") + to_text(x);
+  const auto shown = [&place] {
+    std::string out;
+    for (const T& x : place.at) out += (out.empty() ? "" : ",") + to_text(x);
+    return out;
+  };
   return contracts_as_errors(shown, [&]() -> Result<ModelValues<R>> {
     const Result<PlaceAsked<T>> asked = check_place<T>(domain, place.at.size(), place.sides, order, shown,
                                                        [&](std::size_t s) -> Result<T> { return place.at[s]; });

@@ -18,7 +18,7 @@ std::string name_of(PartKind kind, const std::array<int, 3>& order) {
 template <Ring R, ExactField T>
 Result<std::vector<DerivativeText>> texts(PartKind kind, const AnyPart<T>& part, const PartDomain<T>& domain,
                                           const PlaceText& place, int order) {
-  const std::string shown = fmt::format("{}", fmt::join(place.at, ","));
+  const auto shown = [&place] { return fmt::format("{}", fmt::join(place.at, ",")); };
   return contracts_as_errors(shown, [&]() -> Result<std::vector<DerivativeText>> {
     const Result<PlaceAsked<T>> asked = check_place<T>(domain, place.at.size(), place.sides, order, shown,
                                                        [&](std::size_t s) { return parse_scalar<T>(place.at[s]); });

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,13 +37,13 @@ struct PlaceAsked {
   std::vector<T> at;
   std::array<Side, 3> sides;
   int order;
-  std::string shown;  // the parameters in messages
+  std::function<std::string()> shown;  // the parameters in messages
 };
 
 // next(s): parameter s, one after the other.
 template <ExactField T, class Next>
 Result<PlaceAsked<T>> check_place(const PartDomain<T>& domain, std::size_t given, const std::vector<Side>& sides,
-                                  int order, std::string shown, Next next) {
+                                  int order, std::function<std::string()> shown, Next next) {
   const std::size_t count = domain.size();
   if (order < 0 || order > kMostDerivatives)
     return Error{ErrorCode::usage, "derivatives", fmt::format("an order from 0 to {}", kMostDerivatives),
@@ -56,7 +57,7 @@ Result<PlaceAsked<T>> check_place(const PartDomain<T>& domain, std::size_t given
     if (given <= s || (s + 1 == given) != (s + 1 == count)) {
       const char* const needed[] = {"one parameter T is needed", "two parameters U,V are needed",
                                     "three parameters U,V,W are needed"};
-      return Error{ErrorCode::usage, "at", needed[count - 1], out.shown};
+      return Error{ErrorCode::usage, "at", needed[count - 1], out.shown()};
     }
     const Result<T> x = next(s);
     if (!x) return Error{x.error().code, "at", x.error().message, x.error().values};
@@ -76,11 +77,11 @@ Result<ModelValues<R>> part_values(const AnyPart<T>& part, const PlaceAsked<T>& 
 
 // f(): what another root than the model's, or doubles that overflow, do not let pass is an error.
 template <class F>
-auto contracts_as_errors(const std::string& shown, F f) -> decltype(f()) {
+auto contracts_as_errors(const std::function<std::string()>& shown, F f) -> decltype(f()) {
   try {
     return f();
   } catch (const contract_error& e) {
-    return Error{ErrorCode::usage, "", e.what(), shown};
+    return Error{ErrorCode::usage, "", e.what(), shown()};
   }
 }
 

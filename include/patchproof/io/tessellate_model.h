@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // A model as triangles with a proved error, and in files whose numbers may be single.
 //
-// B-spline patches are meshed by adaptive_mesh.h, with GERBS surfaces that are splines among them. Faces of CAD files are not: they
-// need trimmed_mesh.h and a triangulation that is under the GPL; everything below the first function serves their meshes, too.
+// B-spline patches, and GERBS surfaces that are splines, are meshed by adaptive_mesh.h. Faces of CAD files are not: they need
+// trimmed_mesh.h and a triangulation that is under the GPL; everything below the first function serves their meshes, too.
 //
-//   rounding  formats of single precision (STL, glb) move a vertex by at most √3 (2^-24 |x| + 2^-149), |x| the largest coordinate;
-//             rounded up it comes on top of the proved chord error, so meshes for them are made a little finer
+//   rounding  formats of single precision (STL, glb) move a vertex by at most √3 (2^-24 |x| + 2^-149), |x| the largest
+//             coordinate; this comes on top of the proved chord error, so meshes for them are made a little finer
 //
-// ENSURES   (1) tessellate_model: the laws of adaptive_mesh for the model's patches, matched by geometry or as the model declares;
-//           faces of the mesh are numbers of patches, or of their parts where a patch may jump at a knot (a note says so); what
-//           is left out, too;  (2) mesh_for_file: where both meshes that it may ask for reach the chord error asked of them,
-//           chord + rounding ≤ request.chord unless the rounding alone is above that;  (3) write_mesh: the file holds the
-//           mesh's triangles in order (those that collapse in single precision are not in STL), each vertex within
-//           rounding_of it;  (4) judge_mesh: proved if no triangle misses, chord + rounding ≤ asked and the mesh is watertight;
-//           (5) the same model and request give the same bytes, with any number of jobs.
+// ENSURES   (1) tessellate_model: the laws of adaptive_mesh for the model's patches, matched by geometry or as the model
+//           declares; faces of the mesh are numbers of patches, or of their parts where a patch may jump at a knot (a note says
+//           so, and what is left out);  (2) mesh_for_file: where both meshes that it may ask for reach the chord error asked of
+//           them, chord + rounding ≤ request.chord unless the rounding alone is above that;  (3) write_mesh: the file holds the
+//           mesh's triangles in order (those that collapse in single precision are not in STL), each vertex within rounding_of
+//           it;  (4) judge_mesh: proved if no triangle misses, chord + rounding ≤ asked and the mesh is watertight;  (5) the
+//           same model and request give the same bytes, with any number of jobs.
 // ERRORS    unsupported: a model without patches, with Gregory patches only, with a GERBS that is no spline (`where`: "patch 3");
 //           those of adaptive_mesh: usage, bad_number; those of mesh_files.h. Throws stop_requested or deadline_passed under a
 //           StopScope that is raised.
