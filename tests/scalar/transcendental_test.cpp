@@ -42,6 +42,13 @@ TEST(Transcendental, Law1_EnclosuresContainTheExactNumbers) {
   EXPECT_EQ(pi<double>(), 3.141592653589793);
 }
 
+// ctest runs each test in a process of its own: this is the first call there.
+TEST(Transcendental, Law1_PiInDoubleDoesNotDependOnThePrecisionOfTheFirstCaller) {
+  const BallPrecision precision(20);
+  EXPECT_EQ(pi<double>(), 3.141592653589793);
+  EXPECT_EQ(cos_sin_pi(0.25)[0], cos_sin_pi(-0.25)[0]);
+}
+
 TEST(Transcendental, Law1_WideIntervalsGiveTheWholeRange) {
   const RoundingGuard guard;
   const auto half_turn = cos_sin_pi(Interval(0.25, 1.25));
