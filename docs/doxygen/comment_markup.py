@@ -156,7 +156,7 @@ def markup(lines, link=lambda name: None, of_file=False):
             details += section(keyword, first, rest, link)
             continue
         parts = blocks(rest)
-        if not brief and not details and parts[0][0] == "text":
+        if not brief and not details and parts and parts[0][0] == "text":
             sentence, *others = SENTENCE_END.split(" ".join(parts[0][1].split()), maxsplit=1)
             brief = "\\brief " + flowing(sentence, link)
             parts[0] = ("text", "".join(others))
