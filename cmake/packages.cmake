@@ -6,7 +6,10 @@ set(CPACK_PACKAGE_VENDOR patchproof)
 set(CPACK_PACKAGE_CONTACT "${PATCHPROOF_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_THREADS 0)  # as many as there are processors
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -40,8 +43,9 @@ function(patchproof_package component name section description)
 endfunction()
 
 set(CPACK_COMPONENTS_ALL)
-set(about "patchproof proves how the patches of a free-form model join (C0, C1, C2, G1), bounds gaps and normal angles along
-whole edges, and evaluates Bezier, B-spline, NURBS, Gregory and GERBS patches fast, with bounds, or exactly.")
+set(about "patchproof proves how the patches of a free-form model join (C0, C1, C2,
+G1), bounds gaps and normal angles along whole edges, and evaluates Bezier,
+B-spline, NURBS, Gregory and GERBS patches fast, with bounds, or exactly.")
 patchproof_package(runtime ${runtime_package} libs "exact and certified free-form geometry (shared library)
 ${about}
 .
@@ -50,8 +54,9 @@ This is the shared library with its C interface." ours libraries)
 patchproof_package(dev libpatchproof-dev libdevel "exact and certified free-form geometry (development files)
 ${about}
 .
-Headers of the C and the C++ interface, static libraries, files for CMake and pkg-config. The C interface needs nothing
-else; the recommended packages are for programs that use the C++ headers or link statically." ours libraries)
+Headers of the C and the C++ interface, static libraries, files for CMake and
+pkg-config. The C interface needs nothing else; the recommended packages are
+for programs that use the C++ headers or link statically." ours libraries)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${runtime_package} (= ${debian_version})")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libboost-dev, libcgal-dev, libfmt-dev, libgmp-dev, libmd-dev, libmpfi-dev, \
 libmpfr-dev, libpugixml-dev, libtbb-dev")
@@ -62,8 +67,8 @@ if(TARGET patchproof_program)
   patchproof_package(tools patchproof-tools math "exact and certified free-form geometry (program)
 ${about}
 .
-This is the program: it certifies, evaluates, fills, tessellates, converts and draws models, STEP, IGES and BREP files
-among them." ours libraries tools bsd)
+This is the program: it certifies, evaluates, fills, tessellates, converts and
+draws models, STEP, IGES and BREP files among them." ours libraries tools bsd)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_GENERATE_SHLIBS OFF)
 endif()
 
@@ -84,3 +89,11 @@ This is the Python module; it takes and returns arrays of numpy without copies."
   set(CPACK_DEBIAN_PYTHON_PACKAGE_GENERATE_SHLIBS OFF)
 endif()
 include(CPack)
+
+# Builds what is installed, no more, and packs it.
+add_custom_target(packages
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${CPACK_OUTPUT_FILE_PREFIX}
+  COMMAND ${CMAKE_CPACK_COMMAND} --config ${PROJECT_BINARY_DIR}/CPackConfig.cmake
+  DEPENDS patchproof_c patchproof_c_static patchproof_exact patchproof_kernels
+          $<TARGET_NAME_IF_EXISTS:patchproof_program> $<TARGET_NAME_IF_EXISTS:patchproof_python>
+  WORKING_DIRECTORY ${PROJECT_BINARY_DIR} USES_TERMINAL)
