@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cells.h"
+#include "patchproof/deadline.h"
 #include "patchproof/parallel.h"
 #include "patchproof/patch/patch_knots.h"
 #include "shared_edges.h"
@@ -44,8 +45,10 @@ class Mesher {
       if (auto error = place_nodes()) return *error;
       in_parallel(cells_.size(), [&](std::size_t k) {
         const RoundingGuard guard;
-        for (Cell& c : cells_[k])
+        for (Cell& c : cells_[k]) {
+          check_deadline();
           if (!c.proved) prove(k, c);
+        }
       });
       bool again = false;
       for (std::size_t k = 0; k < cells_.size(); ++k) again = cut(k) || again;
@@ -68,6 +71,7 @@ class Mesher {
     const RoundingGuard guard;
     do {
       for (Cell& c : cells_[k]) {
+        check_deadline();
         if (c.proved) continue;
         const SurfaceHull hull = pieces_[k].bound(c.box());
         c.proof.chord = hull.chord(c.u1 - c.u0, c.v1 - c.v0);
@@ -125,9 +129,11 @@ class Mesher {
 template <ExactField T>
 void Mesher<T>::triangulate() {
   for (std::size_t k = 0; k < cells_.size(); ++k)
-    for (const Cell& c : cells_[k])
+    for (const Cell& c : cells_[k]) {
+      check_deadline();
       for (const double u : {c.u0, c.u1})
         for (const double v : {c.v0, c.v1}) shared_.node(static_cast<int>(k), u, v);
+    }
   shared_.spread();
   std::vector<Lines> lines(cells_.size());
   for (std::size_t n = 0; n < shared_.nodes().size(); ++n) {
