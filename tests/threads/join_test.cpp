@@ -2,7 +2,9 @@
 // Models that all threads certify, evaluate and write: one job to each call.
 #include <sstream>
 
+#include "patchproof/io/cad.h"
 #include "patchproof/io/evaluate_model.h"
+#include "patchproof/io/motion.h"
 #include "patchproof/io/plot.h"
 #include "patchproof/io/profile.h"
 #include "patchproof/io/read.h"
@@ -96,7 +98,8 @@ TEST(ThreadsJoin, ModelsAreCertifiedByAll) {
                                        "seven/perpendicular_cylinders.json",
                                        "seven/split_moved_1e3.json",
                                        "toolbox/test15.json",
-                                       "gerbs/cylinder_rational.json"};
+                                       "gerbs/cylinder_rational.json",
+                                       "gerbs/blends_1.json"};
   std::vector<ModelFile> files;
   for (const std::string& name : names) files.push_back(example(name));
   CertifyOptions with_profile = one_job();
@@ -117,6 +120,64 @@ TEST(ThreadsJoin, BlendedModelsAreCertifiedByAll) {
   all.add("report", [&] { return report_of(file, one_job()); });
   all.run();
 }
+
+// A floor and a ramp that meet along an edge which the file describes.
+CadModel floor_and_ramp() {
+  const auto patch = [](const std::vector<std::array<int, 3>>& corners) {
+    std::vector<Vec<Rational, 4>> net;
+    for (const auto& [x, y, z] : corners) net.push_back({{Rational(x), Rational(y), Rational(z), Rational(1)}});
+    const auto knots = KnotVector<Rational>::bezier(1);
+    return BsplinePatch<Rational, 4>(knots, knots, std::move(net));
+  };
+  const auto along_v = [](int u) {
+    const Rational at(u), one(1);
+    return BsplineCurve<Rational, 3>::bezier({{{at, Rational(0), one}}, {{at, one, one}}});
+  };
+  CadModel model;
+  model.path = "room.step", model.format = "step", model.units = "mm";
+  model.faces = {{"#1", "plane", patch({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}})},
+                 {"#2", "plane", patch({{1, 0, 0}, {1, 1, 0}, {2, 0, 1}, {2, 1, 2}})}};
+  const CadUse floor{0, true, along_v(1)}, ramp{1, false, along_v(0)}, beyond{0, false, along_v(0)};
+  model.edges = {{"#3", CadEdgeKind::shared, {floor, ramp}, 0, ""}, {"#4", CadEdgeKind::free, {beyond}, 0, ""}};
+  return model;
+}
+
+TEST(ThreadsJoin, CadModelsAreCertifiedByAll) {
+  const CadModel model = floor_and_ramp();
+  Together all;
+  for (const double smooth_below : {5.0, 170.0})
+    all.add("report", [&, smooth_below] {
+      CertifyOptions options = one_job();
+      options.smooth_below = smooth_below;
+      std::ostringstream json;
+      write_json(json, certify_cad(model, options));
+      return json.str();
+    });
+  all.run();
+}
+
+TEST(ThreadsJoin, OneMotionMovesOneModelForAll) {
+  const ModelFile file = example("gerbs/heart.json");
+  const auto& model = std::get<Model<Rational>>(file.model);
+  const auto motion = read_motion(PATCHPROOF_SOURCE_DIR "/examples/gerbs/heart_beat.motion.json", model).value();
+  Together all;
+  for (const int k : {0, 3, 7}) all.add("frame", [&, k] { return write_model_json(frame(model, motion, k, 12)); });
+  all.run();
+}
+
+#ifndef __SANITIZE_THREAD__  // TBB is not built for the sanitizer, which would see races where TBB hands work over
+TEST(ThreadsJoin, CallsWithManyJobsDoNotDisturbEachOther) {
+  const ModelFile file = example("torus_q.json");
+  Together all;
+  for (const int jobs : {0, 1, 2, 5})
+    all.add("jobs", [&, jobs] {
+      CertifyOptions options = one_job();
+      options.jobs = jobs;
+      return report_of(file, options);
+    });
+  all.run();
+}
+#endif
 
 TEST(ThreadsJoin, ModelsAreReadEvaluatedAndWrittenByAll) {
   const std::vector<std::string> names{"torus.json",         "sphere_octants.json", "gerbs/heart.json",
