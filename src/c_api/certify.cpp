@@ -152,7 +152,7 @@ patchproof_status patchproof_report_get_join(patchproof_context* context, const 
     value.c1 = verdict_of(c.c1);
     value.c2 = verdict_of(c.c2);
     value.g1 = verdict_of(c.g1);
-    if (c.ratio) value.ratio = borrowed(*c.ratio);
+    value.ratio = c.ratio ? borrowed(*c.ratio) : kNoText;
     value.gap = maximum_of(c.gap);
     value.angle = maximum_of(c.angle);
     value.plane_angle = maximum_of(c.plane_angle);
@@ -169,7 +169,7 @@ patchproof_status patchproof_report_get_witness(patchproof_context* context, con
     const ReportContent& content = content_of(report, "report");
     require_index(join, content.report.joins.size(), "join");
     const std::optional<Witness>& w = exact_class(content.report.joins[join].certificate, continuity).witness;
-    patchproof_witness value{};
+    patchproof_witness value{0, 0, kNoText, {kNoText, kNoText}, {kNoText, kNoText}, kNoText};
     if (w) {
       value.found = 1;
       value.quantity = borrowed(w->quantity);
@@ -189,6 +189,7 @@ patchproof_status patchproof_report_write(patchproof_context* context, const pat
     const Report& r = content_of(report, "report").report;
     require_value(format, PATCHPROOF_REPORT_TABLE, "format");
     std::ostringstream text;
+    text.exceptions(std::ios::badbit);  // or a text would end where memory did
     text.imbue(std::locale::classic());
     if (format == PATCHPROOF_REPORT_JSON)
       write_json(text, r);

@@ -102,6 +102,7 @@ inline std::string_view view(patchproof_text text, const char* name) {
 }
 // Texts that go out belong to the content of a handle.
 inline patchproof_text borrowed(const std::string& text) { return {text.c_str(), text.size()}; }
+inline constexpr patchproof_text kNoText{"", 0};
 
 template <class T>
 void require_array(const T* data, std::size_t length, const std::string& name) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "c_api/models.h"
@@ -10,20 +11,26 @@
 namespace patchproof::c_api {
 namespace {
 
-using nlohmann::ordered_json;
-
 Decimals decimals_of(std::int32_t value) {
   require_value(value, PATCHPROOF_BINARY64, "decimals");
   return value == PATCHPROOF_EXACT ? Decimals::exact : Decimals::binary64;
 }
 
-// A double as a text that holds it exactly.
-std::string exact_text(double x) { return fmt::format("{:a}", x); }
+// Doubles as texts that hold them exactly.
+void add_numbers(std::string& out, const double* data, std::size_t count) {
+  out += '[';
+  for (std::size_t i = 0; i < count; ++i)
+    fmt::format_to(std::back_inserter(out), "{}\"{:a}\"", i == 0 ? "" : ",", data[i]);
+  out += ']';
+}
 
-ordered_json list_of(const double* data, std::size_t count) {
-  ordered_json out = ordered_json::array();
-  for (std::size_t i = 0; i < count; ++i) out.push_back(exact_text(data[i]));
-  return out;
+// REQUIRES UTF-8; else the call ends.
+std::string quoted(patchproof_text text, const std::string& where) {
+  try {
+    return nlohmann::json(view(text, where.c_str())).dump();
+  } catch (const nlohmann::json::type_error&) {
+    bad_data({ErrorCode::syntax, where, "the text is not UTF-8", ""});
+  }
 }
 
 // How many control points knots belong to.
@@ -46,15 +53,18 @@ struct Arrays {
   patchproof_text name;
 };
 
-ordered_json spline_json(const Arrays& a, const std::string& where) {
+// Appends the spline. (Not through a JSON library's objects: theirs end the program when memory runs out.)
+void add_spline(std::string& out, const Arrays& a, const std::string& where) {
+  const bool curve = a.knots.size() == 1;
   std::size_t rows = 1, columns = 1;
-  ordered_json degree = ordered_json::array(), knots = ordered_json::array();
+  std::string knots, degrees;
   for (std::size_t d = 0; d < a.knots.size(); ++d) {
-    const std::string at = where + (a.knots.size() == 1 ? ".knots" : d == 0 ? ".knots_u" : ".knots_v");
+    const std::string at = where + (curve ? ".knots" : d == 0 ? ".knots_u" : ".knots_v");
     require_array(a.knots[d].first, a.knots[d].second, at);
-    (d == 0 && a.knots.size() == 2 ? rows : columns) = points_of(a.knots[d].second, a.degree[d], at);
-    degree.push_back(a.degree[d]);
-    knots.push_back(list_of(a.knots[d].first, a.knots[d].second));
+    (d == 0 && !curve ? rows : columns) = points_of(a.knots[d].second, a.degree[d], at);
+    fmt::format_to(std::back_inserter(degrees), "{}{}", d == 0 ? "" : ",", a.degree[d]);
+    if (d > 0) knots += ',';
+    add_numbers(knots, a.knots[d].first, a.knots[d].second);
   }
   require_array(a.points, a.points_length, where + ".points");
   require_array(a.weights, a.weights_length, where + ".weights");
@@ -65,21 +75,28 @@ ordered_json spline_json(const Arrays& a, const std::string& where) {
   if (a.weights_length != 0 && a.weights_length != a.points_length / 3)
     bad_argument(where + ".weights_length", fmt::format("{} · {} weights, or none", rows, columns),
                  std::to_string(a.weights_length));
-  ordered_json points = ordered_json::array(), weights = ordered_json::array();
-  for (std::size_t i = 0; i < rows; ++i) {
-    ordered_json row = ordered_json::array();
-    for (std::size_t j = 0; j < columns; ++j) row.push_back(list_of(a.points + 3 * (i * columns + j), 3));
-    points.push_back(std::move(row));
-    if (a.weights_length > 0) weights.push_back(list_of(a.weights + i * columns, columns));
-  }
-  const bool curve = a.knots.size() == 1;
-  ordered_json out;
-  if (a.name.length > 0) out["name"] = view(a.name, (where + ".name").c_str());
-  out["degree"] = curve ? degree[0] : degree;
-  out["knots"] = curve ? knots[0] : knots;
-  out["control_points"] = curve ? points[0] : points;
-  if (a.weights_length > 0) out["weights"] = curve ? weights[0] : weights;
-  return out;
+  // In a patch a list of rows, in a curve the one row.
+  const auto list = [&](const char* key, const auto& add_row) {
+    fmt::format_to(std::back_inserter(out), ",\"{}\":{}", key, curve ? "" : "[");
+    for (std::size_t i = 0; i < rows; ++i) {
+      if (i > 0) out += ',';
+      add_row(i);
+    }
+    if (!curve) out += ']';
+  };
+  fmt::format_to(std::back_inserter(out), "{{\"degree\":{1}{0}{2},\"knots\":{1}{3}{2}", degrees, curve ? "" : "[",
+                 curve ? "" : "]", knots);
+  if (a.name.length > 0) out += ",\"name\":" + quoted(a.name, where + ".name");
+  list("control_points", [&](std::size_t i) {
+    out += '[';
+    for (std::size_t j = 0; j < columns; ++j) {
+      if (j > 0) out += ',';
+      add_numbers(out, a.points + 3 * (i * columns + j), 3);
+    }
+    out += ']';
+  });
+  if (a.weights_length > 0) list("weights", [&](std::size_t i) { add_numbers(out, a.weights + i * columns, columns); });
+  out += '}';
 }
 
 // Element i of an array of structs that may be longer than ours.
@@ -102,38 +119,42 @@ std::string model_json(const patchproof_model_data& data) {
   require_array(data.patches, data.patches_length, "patches");
   require_array(data.curves, data.curves_length, "curves");
   require_array(data.joins, data.joins_length, "joins");
-  ordered_json out{{"format", "patchproof-model"}, {"version", 1}};
-  if (data.units.length > 0) out["units"] = view(data.units, "units");
-  if (data.patches_length > 0) out["patches"] = ordered_json::array();
-  for (std::size_t i = 0; i < data.patches_length; ++i) {
+  std::string out = "{\"format\":\"patchproof-model\",\"version\":1";
+  if (data.units.length > 0) out += ",\"units\":" + quoted(data.units, "units");
+  const auto list = [&](const char* key, std::size_t length, const auto& add) {
+    if (length == 0) return;
+    fmt::format_to(std::back_inserter(out), ",\"{}\":[", key);
+    for (std::size_t i = 0; i < length; ++i) {
+      if (i > 0) out += ',';
+      add(i);
+    }
+    out += ']';
+  };
+  list("patches", data.patches_length, [&](std::size_t i) {
     const patchproof_surface_data p = element(data.patches, i, "patches");
-    out["patches"].push_back(spline_json({{{p.knots_u, p.knots_u_length}, {p.knots_v, p.knots_v_length}},
-                                          {p.degree_u, p.degree_v},
-                                          p.points,
-                                          p.points_length,
-                                          p.weights,
-                                          p.weights_length,
-                                          p.name},
-                                         fmt::format("patches[{}]", i)));
-  }
-  if (data.curves_length > 0) out["curves"] = ordered_json::array();
-  for (std::size_t i = 0; i < data.curves_length; ++i) {
+    add_spline(out,
+               {{{p.knots_u, p.knots_u_length}, {p.knots_v, p.knots_v_length}},
+                {p.degree_u, p.degree_v},
+                p.points,
+                p.points_length,
+                p.weights,
+                p.weights_length,
+                p.name},
+               fmt::format("patches[{}]", i));
+  });
+  list("curves", data.curves_length, [&](std::size_t i) {
     const patchproof_curve_data c = element(data.curves, i, "curves");
-    out["curves"].push_back(spline_json(
-        {{{c.knots, c.knots_length}}, {c.degree}, c.points, c.points_length, c.weights, c.weights_length, c.name},
-        fmt::format("curves[{}]", i)));
-  }
-  for (std::size_t i = 0; i < data.joins_length; ++i) {
+    add_spline(
+        out, {{{c.knots, c.knots_length}}, {c.degree}, c.points, c.points_length, c.weights, c.weights_length, c.name},
+        fmt::format("curves[{}]", i));
+  });
+  list("joins", data.joins_length, [&](std::size_t i) {
     const patchproof_declared_join& j = data.joins[i];
-    out["joins"].push_back({{"a", {{"patch", j.patch_a}, {"edge", edge_name(j.edge_a)}}},
-                            {"b", {{"patch", j.patch_b}, {"edge", edge_name(j.edge_b)}}},
-                            {"reversed", j.reversed != 0}});
-  }
-  try {
-    return out.dump();
-  } catch (const ordered_json::type_error&) {
-    bad_data({ErrorCode::syntax, "name, units", "the text is not UTF-8", ""});
-  }
+    fmt::format_to(std::back_inserter(out),
+                   R"({{"a":{{"patch":{},"edge":"{}"}},"b":{{"patch":{},"edge":"{}"}},"reversed":{}}})", j.patch_a,
+                   edge_name(j.edge_a), j.patch_b, edge_name(j.edge_b), j.reversed != 0);
+  });
+  return out + "}";
 }
 
 }  // namespace
