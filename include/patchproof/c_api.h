@@ -60,7 +60,7 @@ enum {
   PATCHPROOF_CONTEXT_BUSY = 5,     /**< another call, perhaps the one whose callback this is, uses the context */
   PATCHPROOF_STOPPED = 6,          /**< the callback asked for it */
   PATCHPROOF_CALLBACK_THREW = 7,   /**< a C++ exception came out of the callback */
-  PATCHPROOF_OUT_OF_MEMORY = 8,
+  PATCHPROOF_OUT_OF_MEMORY = 8,    /**< docs/library.md names the two libraries that end the process instead */
   PATCHPROOF_INTERNAL_ERROR = 9 /**< our fault: please report it */
 };
 
@@ -346,11 +346,14 @@ typedef struct {
   size_t struct_size;
   int32_t require;            /**< every join must be proven of this class: C0, C1, G1, or ANY */
   int32_t has_gap, has_angle; /**< 1: the tolerance counts */
+  int32_t has_curvature;
   double gap_tolerance;       /**< length */
   double angle_tolerance;     /**< degrees */
+  double curvature_tolerance; /**< of joins of curves: difference of curvature vectors, 1/length */
   double seconds_per_join;    /**< then it ends undecided; 0: 10 */
   double match_length;        /**< edges within this length are looked at; 0: 1e-6 of the diagonal */
   int32_t jobs;               /**< threads; 0: one for each processor. The report does not depend on it */
+  patchproof_text profile;    /**< thresholds for what is not set here, by the program's name: "vda4955" */
 } patchproof_certify_options;
 /** Finds the joins of the model, or takes the declared ones, and decides each. options and callback may be NULL. */
 PATCHPROOF_API patchproof_status patchproof_certify(patchproof_context* context, const patchproof_model* model,
@@ -465,7 +468,8 @@ PATCHPROOF_API patchproof_status patchproof_mesh_get_data(patchproof_context* co
     double* vertices, size_t vertices_length, int32_t* triangles, size_t triangles_length, int32_t* patches,
     size_t patches_length) PATCHPROOF_NOEXCEPT;
 enum { PATCHPROOF_STL = 0, PATCHPROOF_OBJ = 1, PATCHPROOF_PLY = 2, PATCHPROOF_GLB = 3, PATCHPROOF_VTU = 4 };
-/** The bytes of a file. *needed counts a zero byte at the end, which is not part of it. */
+/** The bytes of a file. *needed counts a zero byte at the end, which is not part of it. STL and GLB hold single precision: their
+ *  vertices lie up to 1.74 · 2^-24 · (largest coordinate) beside those of the mesh, on top of its chord error. */
 PATCHPROOF_API patchproof_status patchproof_mesh_write(patchproof_context* context, const patchproof_mesh* mesh,
     int32_t format, char* buffer, size_t length, size_t* needed) PATCHPROOF_NOEXCEPT;
 

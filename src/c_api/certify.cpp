@@ -5,6 +5,7 @@
 
 #include "c_api/models.h"
 #include "c_api/watch.h"
+#include "patchproof/io/profile.h"
 #include "patchproof/io/report.h"
 
 namespace patchproof::c_api {
@@ -44,7 +45,7 @@ double size_of(double x, const char* name) {
   return x;
 }
 
-CertifyOptions certify_options(const patchproof_certify_options* options) {
+CertifyOptions certify_options(const patchproof_certify_options* options, const std::string& units) {
   const patchproof_certify_options o = options_of(options, "options");
   CertifyOptions out;
   require_value(o.require, PATCHPROOF_G1, "options.require");
@@ -54,11 +55,19 @@ CertifyOptions certify_options(const patchproof_certify_options* options) {
                                                        : Continuity::g1;
   require_value(o.has_gap, 1, "options.has_gap");
   require_value(o.has_angle, 1, "options.has_angle");
+  require_value(o.has_curvature, 1, "options.has_curvature");
+  if (o.has_curvature) out.curvature_tolerance = size_of(o.curvature_tolerance, "options.curvature_tolerance");
   if (o.has_gap) out.request.gap_tolerance = size_of(o.gap_tolerance, "options.gap_tolerance");
   if (o.has_angle) out.request.angle_tolerance = size_of(o.angle_tolerance, "options.angle_tolerance");
   if (o.angle_tolerance > 180) bad_argument("options.angle_tolerance", "is more than 180 degrees");
   if (size_of(o.seconds_per_join, "options.seconds_per_join") > 0) out.request.seconds_per_join = o.seconds_per_join;
   out.given = out.request;
+  if (o.profile.length > 0) {
+    const std::string name(view(o.profile, "options.profile"));
+    out.profile = find_profile(name);
+    if (out.profile == nullptr) bad_argument("options.profile", "there is no profile of this name", name);
+    out.request = take(tolerances_of(*out.profile, units, out.given));
+  }
   out.match_length = size_of(o.match_length, "options.match_length");
   require_value(o.jobs, 1024, "options.jobs");
   out.jobs = o.jobs;
@@ -118,7 +127,7 @@ patchproof_status patchproof_certify(patchproof_context* context, const patchpro
   return call(context, [&] {
     require_place(out, "out");
     const ModelFile& file = content_of(model, "model").file;
-    CertifyOptions certify = certify_options(options);
+    CertifyOptions certify = certify_options(options, std::visit([](const auto& m) { return m.units; }, file.model));
     Progress progress;
     certify.progress = [&](std::size_t done, std::size_t all) {
       progress.all = all;

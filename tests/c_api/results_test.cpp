@@ -120,6 +120,40 @@ TEST_F(CApiResults, JoinsOfArrays) {
   }
 }
 
+// Thresholds by name are those of the library; what is given itself counts instead.
+TEST_F(CApiResults, ProfilesAndCurvature) {
+  TwoSquares squares(0.25);
+  squares.data.units = patchproof_from("mm");
+  const Owned<patchproof_model> model = squares.make(context_);
+  patchproof_certify_options options = sized<patchproof_certify_options>();
+  options.profile = patchproof_from("vda4955");
+  const auto outcome = [&] {
+    patchproof_report_summary summary = sized<patchproof_report_summary>();
+    EXPECT_EQ(patchproof_report_get_summary(c(), certify(model, &options).get(), &summary), PATCHPROOF_OK);
+    return summary.outcome;
+  };
+  EXPECT_EQ(outcome(), PATCHPROOF_FAIL);  // 45 degrees
+  options.has_angle = 1;
+  options.angle_tolerance = 50;
+  EXPECT_EQ(outcome(), PATCHPROOF_PASS);
+  patchproof_report* none = nullptr;
+  options.profile = patchproof_from("none such");
+  EXPECT_EQ(patchproof_certify(c(), model.get(), &options, nullptr, &none), PATCHPROOF_BAD_ARGUMENT);
+  squares.data.units = patchproof_from("cubits");
+  options.profile = patchproof_from("vda4955");
+  const Owned<patchproof_model> odd = squares.make(context_);
+  EXPECT_EQ(patchproof_certify(c(), odd.get(), &options, nullptr, &none), PATCHPROOF_BAD_DATA);
+  EXPECT_EQ(none, nullptr);
+
+  const Owned<patchproof_model> curves = read_example(context_, "toolbox/quarter_circle.json");
+  patchproof_certify_options curvature = sized<patchproof_certify_options>();
+  curvature.has_curvature = 1;
+  curvature.curvature_tolerance = -1;
+  EXPECT_EQ(patchproof_certify(c(), curves.get(), &curvature, nullptr, &none), PATCHPROOF_BAD_ARGUMENT);
+  curvature.curvature_tolerance = 0.25;
+  EXPECT_NE(text_of_report(certify(curves, &curvature), PATCHPROOF_REPORT_JSON).find("0.25"), std::string::npos);
+}
+
 TEST_F(CApiResults, FillsAreThoseOfTheLibrary) {
   const std::string path = example("meshes/football.json"), bytes = bytes_of(path);
   patchproof_fill_summary summary = sized<patchproof_fill_summary>();
