@@ -78,14 +78,12 @@ if("python" IN_LIST components)  # what python/CMakeLists.txt installs
 ${about}
 .
 This is the Python module; it takes and returns arrays of numpy without copies." ours python bsd)
-  if(NOT PATCHPROOF_PYTHON_VERSION)  # of the module's binary interface
-    set(PATCHPROOF_PYTHON_VERSION 3.11)
-  endif()
-  string(REGEX MATCH "^[0-9]+\\.[0-9]+" minor "${PATCHPROOF_PYTHON_VERSION}")
-  string(REGEX REPLACE "^[0-9]+\\." "" next "${minor}")
-  math(EXPR next "${next} + 1")
+  get_directory_property(major DIRECTORY ${PROJECT_SOURCE_DIR}/python DEFINITION Python_VERSION_MAJOR)
+  get_directory_property(minor DIRECTORY ${PROJECT_SOURCE_DIR}/python DEFINITION Python_VERSION_MINOR)
+  math(EXPR next "${minor} + 1")  # the module is for one version's binary interface
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-    "${runtime_package} (= ${debian_version}), python3 (>= ${minor}), python3 (<< 3.${next}), python3-numpy")
+    "${runtime_package} (= ${debian_version}), python3 (>= ${major}.${minor}), python3 (<< ${major}.${next}), \
+python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_GENERATE_SHLIBS OFF)
 endif()
 include(CPack)

@@ -102,7 +102,7 @@ def use_program(root, examples):
     if "libocct-data-exchange" in root.run("dpkg-query", "-W", "-f=${Depends}", "patchproof-tools"):
         require(parts != [], "there is no example of a STEP file")
         shutil.copy(parts[0], root.folder / "tmp" / "part.step")
-        root.run("patchproof", "info", "/tmp/part.step")
+        root.run("patchproof", "certify", "/tmp/part.step")
 
 
 def build_program(root, sources):

@@ -32,6 +32,7 @@ class Package:
         self.path = path
         self.folder = work / "unpacked" / path.stem
         shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.parent.mkdir(exist_ok=True)
         run("dpkg-deb", "-R", path, self.folder)
         self.control = dict(re.findall(r"^(\S+): (.*)$", (self.folder / "DEBIAN" / "control").read_text(), re.M))
         self.text = (self.folder / "DEBIAN" / "control").read_text()

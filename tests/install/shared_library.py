@@ -68,7 +68,7 @@ def check_file(libdir, abi, version):
 
 def check_header(include, cc, cxx):
     with tempfile.TemporaryDirectory() as folder:
-        strict = ["-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only", f"-I{include}"]
+        strict = ["-Wall", "-Wextra", "-pedantic", "-Werror", "-c", "-o", f"{folder}/alone.o", f"-I{include}"]
         for compiler, suffix, standards in ((cc, "c", ("c99", "c11", "c17")), (cxx, "cpp", ("c++11", "c++20"))):
             source = pathlib.Path(folder) / f"alone.{suffix}"
             source.write_text("#include <patchproof/c_api.h>\n#include <patchproof/c_api.h>\n")
@@ -90,6 +90,14 @@ def check_cxx_headers(include, cxx):
         licence = re.search(r"SPDX-License-Identifier:\s*(\S+)", pathlib.Path(path).read_text(errors="replace")[:4000])
         require(licence is not None and not licence.group(1).startswith("GPL"), f"{path} is under the GPL")
     return len(headers), len(cgal)
+
+
+def check_no_triangulations(libdir):
+    """CGAL's triangulations are under the GPL: no code of them is in the static libraries, nor in what is made of these."""
+    for name in ("libpatchproof.a", "libpatchproof_exact.a", "libpatchproof_kernels.a"):
+        of_cgal = [symbol for symbol in exported([], libdir / name) if "4CGAL" in symbol]
+        bad = [symbol for symbol in of_cgal if "riangulation" in symbol or "Delaunay" in symbol]
+        require(bad == [], f"{name} contains {bad[:1]}")
 
 
 def self_test():
@@ -118,6 +126,7 @@ def main():
     archive = exported(["-g", "--defined-only"], tree / libdir / "libpatchproof.a")
     difference("functions of libpatchproof.a", [name for name in archive if name.startswith("patchproof_")], names)
     check_header(include, cc, cxx)
+    check_no_triangulations(tree / libdir)
     headers, cgal = check_cxx_headers(include, cxx)
     print(f"{len(names)} functions, version PATCHPROOF_{abi}, needing {' '.join(libraries)}; "
           f"{headers} headers over {cgal} of CGAL, none of these under the GPL")

@@ -66,11 +66,12 @@ int main(void) {
   out.point.count = 1;
   at.u = &u;
   at.v = &v;
-  if (patchproof_surface_evaluate(context, surface, at, NULL, &out) != PATCHPROOF_OK) return failed("evaluate", context);
+  if (patchproof_surface_evaluate(context, surface, at, NULL, &out) != PATCHPROOF_OK)
+    return failed("evaluate", context);
   if (point[0] != 0.25 || point[1] != 0.5 || point[2] != 0) return failed("point", context);
 
-  if (patchproof_model_read_text(context, patchproof_from("no model"), patchproof_from("it"), PATCHPROOF_EXACT, &none) !=
-          PATCHPROOF_BAD_DATA ||
+  if (patchproof_model_read_text(context, patchproof_from("no model"), patchproof_from("it"), PATCHPROOF_EXACT,
+                                 &none) != PATCHPROOF_BAD_DATA ||
       none != NULL)
     return failed("a text that is no model", context);
   printf("refused: %s\n", patchproof_error_text(context));
