@@ -22,7 +22,8 @@ ModelFile example(const std::string& name) {
   return std::move(*file);
 }
 
-// Two B-spline patches, then a GERBS patch, then two Gregory patches; a B-spline curve, then a GERBS curve; a solid.
+// Two B-spline patches, then a GERBS patch, then two Gregory patches; a B-spline curve, then two GERBS curves (the second one is
+// the first in space); a solid.
 ModelFile mixed() {
   ModelFile out = example("torus_q.json");
   Model<Rational> model = rational_model(out);
@@ -34,6 +35,8 @@ ModelFile mixed() {
   for (const auto& patch : filled.patches) model.gregory_patches.push_back({"", patch});
   model.curves = {rational_model(example("toolbox/knots.json")).curves[0]};
   model.gerbs_curves = rational_model(example("gerbs/heart_polynomial.json")).gerbs_curves;
+  model.gerbs_curves.push_back(model.gerbs_curves[0]);
+  model.gerbs_curves[1].dimension = 3;
   model.solids = rational_model(example("toolbox/solid.json")).solids;
   out.model = std::move(model);
   return out;
@@ -94,7 +97,7 @@ TEST(EvaluateModel, Law2_NumbersOfParts) {
   const ModelFile file = mixed();
   const Model<Rational>& model = rational_model(file);
   ASSERT_EQ(part_count(file, PartKind::patch), 5);
-  ASSERT_EQ(part_count(model, PartKind::curve), 2);
+  ASSERT_EQ(part_count(model, PartKind::curve), 3);
   ASSERT_EQ(part_count(file, PartKind::solid), 1);
   for (const auto& f : kFractions)
     for (int i = 0; i < 5; ++i) {
@@ -119,6 +122,7 @@ TEST(EvaluateModel, Law2_NumbersOfParts) {
   const auto heart = evaluate_part<Rational>(model, {PartKind::curve, 1}, t, 3);
   ASSERT_TRUE(heart) << heart.error().text();
   EXPECT_EQ(heart->dimension, 2);
+  EXPECT_EQ(evaluate_part<Rational>(model, {PartKind::curve, 2}, t, 0).value().dimension, 3);
   const auto direct = derivatives_at<Rational>(model.gerbs_curves[0].curve, t.at[0], Side::right, t.at[0], 3);
   for (std::size_t k = 0; k <= 3; ++k) EXPECT_EQ(heart->rows[k].value, direct[k]);
   const ModelPlace<Rational> x = inside(model, {PartKind::solid, 0}, kFractions[0]);

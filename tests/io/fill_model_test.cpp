@@ -168,17 +168,19 @@ TEST(FillModel, Law5_JobsDoNotMatter) {
   EXPECT_EQ(models.size(), 1U);
 }
 
-// Left to itself the scale is `rational` where there are T-nodes, and `none` for two_faces.json.
+// Left to itself the scale is `rational` where faces are to be split or there are T-nodes, and `none` for two_faces.json.
 TEST(FillModel, TheScaleFollowsTheMesh) {
-  for (const char* name : {"two_faces.json", "mixed_faces.json"}) {
+  const CurveMesh mixed = mesh_of(text_of("mixed_faces.json"));
+  const CurveMesh split = filled(mixed).mesh;  // with T-nodes, and faces of four sides only
+  for (const CurveMesh& mesh : {two_faces(), mixed, split}) {
     std::map<int, std::string> models;
     for (const int scale : {-1, 0, 1}) {
       FillRequest request;
       if (scale >= 0) request.scale = scale == 0 ? NodeScale::none : NodeScale::rational;
-      models[scale] = write_model_json(filled(mesh_of(text_of(name)), request).model);
+      models[scale] = write_model_json(filled(mesh, request).model);
     }
-    EXPECT_NE(models[0], models[1]) << name;
-    EXPECT_EQ(models[-1], models[std::string(name) == "two_faces.json" ? 0 : 1]) << name;
+    EXPECT_NE(models[0], models[1]);
+    EXPECT_EQ(models[-1], models[mesh.faces.size() == 2 ? 0 : 1]);
   }
 }
 
