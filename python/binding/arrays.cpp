@@ -39,9 +39,10 @@ py::ssize_t common_stride(const py::array& array, py::ssize_t dimensions, const 
     if (array.shape(d) == 1) continue;
     if (step == 0) step = next = array.strides(d);
     if (array.strides(d) != next || step <= 0 || step % kDouble != 0)
-      throw py::type_error(name + ": " + described(array) +
-                           " whose items do not follow each other in equal steps forward; numpy.ascontiguousarray makes a copy "
-                           "that does");
+      throw py::type_error(
+          name + ": " + described(array) +
+          " whose items do not follow each other in equal steps forward; numpy.ascontiguousarray makes a copy "
+          "that does");
     next *= array.shape(d);
   }
   return step == 0 ? 1 : step / kDouble;
@@ -53,7 +54,9 @@ py::ssize_t product(const Shape& shape) {
   return out;
 }
 
-Shape shape_of(const py::array& array, py::ssize_t dimensions) { return Shape(array.shape(), array.shape() + dimensions); }
+Shape shape_of(const py::array& array, py::ssize_t dimensions) {
+  return Shape(array.shape(), array.shape() + dimensions);
+}
 
 const double* data_of(const py::array& array) { return static_cast<const double*>(array.data()); }
 
@@ -76,7 +79,8 @@ Parameters surface_parameters(const py::object& uv) {
     out.shape = shape_of(array, last);
     const py::ssize_t stride = common_stride(array, last, "uv"), across = array.strides(last);
     if (across % kDouble != 0)
-      throw py::type_error("uv: " + described(array) + " whose v lies between doubles; numpy.ascontiguousarray makes a copy");
+      throw py::type_error("uv: " + described(array) +
+                           " whose v lies between doubles; numpy.ascontiguousarray makes a copy");
     out.at = {data_of(array), data_of(array) + across / kDouble, static_cast<std::size_t>(product(out.shape)), stride};
     out.arrays = {array};
     return out;
@@ -143,7 +147,8 @@ Output output(const py::object& out, const Shape& items, const std::string& name
   if (across <= 0 || across % kDouble != 0 || reinterpret_cast<std::uintptr_t>(array.data()) % kDouble != 0)
     throw py::type_error(name + ": " + described(array) + " whose coordinates do not lie in steps of whole doubles");
   auto* const x = static_cast<double*>(array.mutable_data());
-  made.vectors = {x, x + across / kDouble, x + 2 * (across / kDouble), static_cast<std::size_t>(product(items)), stride};
+  made.vectors = {x, x + across / kDouble, x + 2 * (across / kDouble), static_cast<std::size_t>(product(items)),
+                  stride};
   return made;
 }
 

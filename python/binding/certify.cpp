@@ -25,8 +25,8 @@ constexpr const char* kOrientations[] = {"smooth", "cusp", "mixed", "unknown"};
 // The classes of records are looked up once for a report and not for each record.
 struct Records {
   py::object bounds = member("_values", "Bounds"), verdict = member("_values", "Verdict"),
-             witness = member("_values", "Witness"), side = member("_values", "JoinSide"), join = member("_values", "Join"),
-             exact = member("_numbers", "exact_or_text");
+             witness = member("_values", "Witness"), side = member("_values", "JoinSide"),
+             join = member("_values", "Join"), exact = member("_numbers", "exact_or_text");
 
   py::object maximum(const patchproof_maximum& m) const {
     return bounds(m.lower, m.upper, py::make_tuple(m.point[0], m.point[1], m.point[2]), m.converged != 0);
@@ -120,7 +120,8 @@ SharedReport certify(const Model& model, const py::object& require, std::optiona
   ReportHandle made;
   watch.call([&](patchproof_context* context) {
     patchproof_report* report = nullptr;
-    const patchproof_status status = patchproof_certify(context, model.handle.get(), &options, watch.callback(), &report);
+    const patchproof_status status =
+        patchproof_certify(context, model.handle.get(), &options, watch.callback(), &report);
     made.reset(report);
     return status;
   });
@@ -158,15 +159,16 @@ The table that people read, worst joins first.)");
   report.def("__repr__", [](const Report& r) {
     const auto s = summary_of(r);
     const py::object bounds = member("_values", "Bounds");
-    const auto shown = [&](const double (&b)[2]) { return std::string(py::repr(bounds(b[0], b[1]))); };
-    return "<patchproof.Report: " + std::string(kOutcomes[s.outcome]) + ", " + std::to_string(s.joins) + " joins, gap " +
-           shown(s.largest_gap) + ", angle " + shown(s.largest_angle) + " degrees>";
+    const auto shown = [&](const double(&b)[2]) { return std::string(py::repr(bounds(b[0], b[1]))); };
+    return "<patchproof.Report: " + std::string(kOutcomes[s.outcome]) + ", " + std::to_string(s.joins) +
+           " joins, gap " + shown(s.largest_gap) + ", angle " + shown(s.largest_angle) + " degrees>";
   });
 
-  module.def("certify", &certify, py::arg("model"), py::arg("require") = py::none(), py::arg("gap") = py::none(),
-             py::arg("angle") = py::none(), py::kw_only(), py::arg("seconds_per_join") = 10.0,
-             py::arg("match") = py::none(), py::arg("jobs") = 0, py::arg("progress") = py::none(),
-             R"(certify(model, require=None, gap=None, angle=None, *, seconds_per_join=10.0, match=None, jobs=0, progress=None)
+  module.def(
+      "certify", &certify, py::arg("model"), py::arg("require") = py::none(), py::arg("gap") = py::none(),
+      py::arg("angle") = py::none(), py::kw_only(), py::arg("seconds_per_join") = 10.0, py::arg("match") = py::none(),
+      py::arg("jobs") = 0, py::arg("progress") = py::none(),
+      R"(certify(model, require=None, gap=None, angle=None, *, seconds_per_join=10.0, match=None, jobs=0, progress=None)
 --
 
 Finds the joins of the patches, or takes the declared ones, and proves, refutes or bounds each: a Report.

@@ -48,7 +48,9 @@ class Results {
     py::dict made;
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const Slot& slot = slots[i];
-      const py::object target = fills_record ? py::object(out.attr(slot.name)) : points_only && i == 0 ? out : py::none();
+      const py::object target = fills_record            ? py::object(out.attr(slot.name))
+                                : points_only && i == 0 ? out
+                                                        : py::none();
       if (fills_record && target.is_none() && slot.wanted && i > 0)
         throw py::value_error(std::string("out.") + slot.name + " is None, and derivatives or normal ask for it");
       if (fills_record ? target.is_none() : !slot.wanted) continue;
@@ -79,9 +81,9 @@ void require_order(int derivatives) {
 std::vector<Slot> surface_slots(int derivatives, bool normal) {
   require_order(derivatives);
   const bool first = derivatives >= 1, second = derivatives >= 2;
-  return {{"point", &patchproof_derivatives::point, true},   {"du", &patchproof_derivatives::du, first},
-          {"dv", &patchproof_derivatives::dv, first},        {"duu", &patchproof_derivatives::duu, second},
-          {"duv", &patchproof_derivatives::duv, second},     {"dvv", &patchproof_derivatives::dvv, second},
+  return {{"point", &patchproof_derivatives::point, true},    {"du", &patchproof_derivatives::du, first},
+          {"dv", &patchproof_derivatives::dv, first},         {"duu", &patchproof_derivatives::duu, second},
+          {"duv", &patchproof_derivatives::duv, second},      {"dvv", &patchproof_derivatives::dvv, second},
           {"normal", &patchproof_derivatives::normal, normal}};
 }
 
@@ -156,8 +158,8 @@ double error_bound(Patch& p, const py::object& vector) {
   return bound;
 }
 
-py::object evaluate_curve(Curve& p, const py::object& t, int derivatives, const py::object& out,
-                          const py::object& side, int threads) {
+py::object evaluate_curve(Curve& p, const py::object& t, int derivatives, const py::object& out, const py::object& side,
+                          int threads) {
   require_order(derivatives);
   const Parameters parameters = curve_parameters(t);
   auto options = sized<patchproof_evaluate_options>();

@@ -40,7 +40,8 @@ py::object values(const std::string& lines, const py::tuple& shape, std::size_t 
     begin = end + 1;
   }
   const std::size_t rows = keys.size();
-  if (all.size() != items * rows * 3) throw std::runtime_error("evaluate_exact: another number of values than asked for");
+  if (all.size() != items * rows * 3)
+    throw std::runtime_error("evaluate_exact: another number of values than asked for");
   py::dict out;
   for (std::size_t row = 0; row < rows; ++row) {
     const py::object flat = empty(items * 3, py::arg("dtype") = "object");
@@ -58,9 +59,10 @@ std::string exact_lines(const py::array& parameters, std::size_t numbers, const 
   const auto texts = texts_of(parameters);
   std::vector<patchproof_text> views;
   for (const std::string& text : texts) views.push_back(view(text));
-  return written(64 + 64 * numbers, [&](patchproof_context* context, char* buffer, std::size_t length, std::size_t* needed) {
-    return f(context, views, options, buffer, length, needed);
-  });
+  return written(64 + 64 * numbers,
+                 [&](patchproof_context* context, char* buffer, std::size_t length, std::size_t* needed) {
+                   return f(context, views, options, buffer, length, needed);
+                 });
 }
 
 void require_order(int order) {
@@ -80,10 +82,11 @@ py::object evaluate_patch(const Patch& p, const py::object& uv, int order, const
   py::list keys;
   for (int total = 0; total <= order; ++total)
     for (int j = 0; j <= total; ++j) keys.append(py::make_tuple(total - j, j));
-  const auto lines = exact_lines(at, items * keys.size() * 3, options, [&](auto* c, const auto& texts, const auto& o, auto... to) {
-    return patchproof_model_patch_evaluate_exact(c, p.model.get(), p.index, texts.data(), texts.size(), &o,
-                                                 PATCHPROOF_RATIONAL, order, to...);
-  });
+  const auto lines =
+      exact_lines(at, items * keys.size() * 3, options, [&](auto* c, const auto& texts, const auto& o, auto... to) {
+        return patchproof_model_patch_evaluate_exact(c, p.model.get(), p.index, texts.data(), texts.size(), &o,
+                                                     PATCHPROOF_RATIONAL, order, to...);
+      });
   return values(lines, at.attr("shape")[py::slice(0, at.ndim() - 1, 1)], items, keys);
 }
 
@@ -95,10 +98,11 @@ py::object evaluate_curve(const Curve& p, const py::object& t, int order, const 
   py::list keys;
   for (int total = 0; total <= order; ++total) keys.append(py::int_(total));
   const auto items = static_cast<std::size_t>(at.size());
-  const auto lines = exact_lines(at, items * keys.size() * 3, options, [&](auto* c, const auto& texts, const auto& o, auto... to) {
-    return patchproof_model_curve_evaluate_exact(c, p.model.get(), p.index, texts.data(), texts.size(), &o,
-                                                 PATCHPROOF_RATIONAL, order, to...);
-  });
+  const auto lines =
+      exact_lines(at, items * keys.size() * 3, options, [&](auto* c, const auto& texts, const auto& o, auto... to) {
+        return patchproof_model_curve_evaluate_exact(c, p.model.get(), p.index, texts.data(), texts.size(), &o,
+                                                     PATCHPROOF_RATIONAL, order, to...);
+      });
   return values(lines, at.attr("shape"), items, keys);
 }
 

@@ -14,8 +14,8 @@ py::object proofs(const std::size_t (&counts)[3]) {
   return member("_values", "Proofs")(counts[0], counts[1], counts[2]);
 }
 
-py::tuple fill_text(const py::object& text, const std::string& name, std::optional<double> repair, const py::object& decimals,
-                    int jobs, const py::object& progress) {
+py::tuple fill_text(const py::object& text, const std::string& name, std::optional<double> repair,
+                    const py::object& decimals, int jobs, const py::object& progress) {
   if (!py::isinstance<py::str>(text) && !py::isinstance<py::bytes>(text))
     throw py::type_error("text: str or bytes are needed, not " + std::string(py::str(py::type::of(text))));
   const auto bytes = text.cast<std::string>();
@@ -64,8 +64,8 @@ py::tuple fill(const py::object& path, std::optional<double> repair, const py::o
 }  // namespace
 
 void bind_fill(py::module_& module) {
-  module.def("fill", &fill, py::arg("path"), py::arg("repair") = py::none(), py::kw_only(), py::arg("decimals") = "exact",
-             py::arg("jobs") = 0, py::arg("progress") = py::none(),
+  module.def("fill", &fill, py::arg("path"), py::arg("repair") = py::none(), py::kw_only(),
+             py::arg("decimals") = "exact", py::arg("jobs") = 0, py::arg("progress") = py::none(),
              R"(fill(path, repair=None, *, decimals='exact', jobs=0, progress=None)
 --
 

@@ -72,8 +72,8 @@ std::shared_ptr<Model> construct(const py::object& patches, const py::object& cu
   number = 0;
   for (const auto& join : joins) {
     const py::tuple made = arrays.attr("join")(join, number++);
-    all.joins.push_back({whole(made[0], "joins"), whole(made[1], "joins"), whole(made[2], "joins"), whole(made[3], "joins"),
-                         made[4].cast<bool>() ? 1 : 0});
+    all.joins.push_back({whole(made[0], "joins"), whole(made[1], "joins"), whole(made[2], "joins"),
+                         whole(made[3], "joins"), made[4].cast<bool>() ? 1 : 0});
   }
   auto data = sized<patchproof_model_data>();
   data.patches = all.patches.data(), data.patches_length = all.patches.size();
@@ -87,7 +87,8 @@ std::shared_ptr<Model> construct(const py::object& patches, const py::object& cu
 
 std::string bytes_of(const py::object& text, const char* name) {
   if (!py::isinstance<py::str>(text) && !py::isinstance<py::bytes>(text))
-    throw py::type_error(std::string(name) + ": str or bytes are needed, not " + std::string(py::str(py::type::of(text))));
+    throw py::type_error(std::string(name) + ": str or bytes are needed, not " +
+                         std::string(py::str(py::type::of(text))));
   return text.cast<std::string>();
 }
 
@@ -131,9 +132,9 @@ std::string text_of(const Model& model, std::int32_t format) {
 PyObject* new_model(PyTypeObject*, PyObject* args, PyObject* named) {
   try {
     // Never destroyed: the interpreter ends before static objects do.
-    static const py::cpp_function& make = *new py::cpp_function(
-        &construct, py::name("Model"), py::arg("patches") = py::tuple(), py::arg("curves") = py::tuple(),
-        py::arg("joins") = py::tuple(), py::arg("units") = "mm");
+    static const py::cpp_function& make =
+        *new py::cpp_function(&construct, py::name("Model"), py::arg("patches") = py::tuple(),
+                              py::arg("curves") = py::tuple(), py::arg("joins") = py::tuple(), py::arg("units") = "mm");
     return PyObject_Call(make.ptr(), args, named);
   } catch (py::error_already_set& error) {
     error.restore();
@@ -151,7 +152,8 @@ std::int32_t decimals_of(const py::object& word) { return choose(word, {"exact",
 void forbid_construction(const py::object& type) { reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new = nullptr; }
 
 void bind_model(py::module_& module) {
-  py::class_<Model, std::shared_ptr<Model>> model(module, "Model", py::is_final(), R"(Model(patches=(), curves=(), joins=(), units='mm')
+  py::class_<Model, std::shared_ptr<Model>> model(module, "Model", py::is_final(),
+                                                  R"(Model(patches=(), curves=(), joins=(), units='mm')
 --
 
 Patches and curves with exact numbers. A model never changes; it can be pickled (as JSON) and shared by threads.
@@ -167,23 +169,17 @@ Each double counts as exactly the number it is; numbers that are no doubles are 
   type->tp_new = new_model;
   type->tp_init = [](PyObject*, PyObject*, PyObject*) { return 0; };
   model.def_property_readonly(
-      "patches",
-      [](Model& m) {
-        return parts<Patch>(m.patches, m, m.info.patches, patchproof_model_patch_get_info);
-      },
+      "patches", [](Model& m) { return parts<Patch>(m.patches, m, m.info.patches, patchproof_model_patch_get_info); },
       "The patches, a tuple of Patch: B-splines first, then GERBS, then Gregory patches.");
   model.def_property_readonly(
-      "curves",
-      [](Model& m) { return parts<Curve>(m.curves, m, m.info.curves, patchproof_model_curve_get_info); },
+      "curves", [](Model& m) { return parts<Curve>(m.curves, m, m.info.curves, patchproof_model_curve_get_info); },
       "The curves, a tuple of Curve: B-splines first, then GERBS.");
   model.def_property_readonly(
       "units", [](Model& m) { return to_str(m.info.units); }, "The unit of lengths, as the file has it.");
   model.def_property_readonly(
-      "format", [](Model& m) { return to_str(m.info.format); },
-      "What was read: \"patchproof-model\", \"g2\" …");
+      "format", [](Model& m) { return to_str(m.info.format); }, "What was read: \"patchproof-model\", \"g2\" …");
   model.def_property_readonly(
-      "notes", [](Model& m) { return lines_of(m.info.notes); },
-      "What the reader noticed, a tuple of str.");
+      "notes", [](Model& m) { return lines_of(m.info.notes); }, "What the reader noticed, a tuple of str.");
   model.def_property_readonly(
       "solids", [](Model& m) { return m.info.solids; }, "How many solids (maps of u, v, w) it has.");
   model.def(

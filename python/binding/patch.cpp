@@ -42,8 +42,9 @@ std::vector<double> numbers(const Curve& p, double* patchproof_spline_buffers::*
 template <class P>
 py::array knots(const P& p, bool along_v) {
   const std::size_t count = along_v ? p.info.knots_v : p.info.knots_u;
-  const auto all = along_v ? numbers(p, &patchproof_spline_buffers::knots_v, &patchproof_spline_buffers::knots_v_length, count)
-                           : numbers(p, &patchproof_spline_buffers::knots_u, &patchproof_spline_buffers::knots_u_length, count);
+  const auto all =
+      along_v ? numbers(p, &patchproof_spline_buffers::knots_v, &patchproof_spline_buffers::knots_v_length, count)
+              : numbers(p, &patchproof_spline_buffers::knots_u, &patchproof_spline_buffers::knots_u_length, count);
   return frozen(all.data(), {static_cast<py::ssize_t>(count)});
 }
 
@@ -92,14 +93,18 @@ std::int32_t direction_of(const py::object& word) { return choose(word, {"u", "v
 // What patches and curves have alike.
 template <class P, class Class>
 void bind_common(Class& type, const char* parts) {
-  type.def_property_readonly("name", [](const P& p) { return to_str(p.info.name); }, "Its name in the model, or \"\".");
-  type.def_property_readonly("index", [](const P& p) { return p.index; }, "Its number in the model.");
-  type.def_property_readonly("kind", [](const P& p) { return kind_of(p); }, "\"bspline\", \"gerbs\" or \"gregory\".");
+  type.def_property_readonly(
+      "name", [](const P& p) { return to_str(p.info.name); }, "Its name in the model, or \"\".");
+  type.def_property_readonly(
+      "index", [](const P& p) { return p.index; }, "Its number in the model.");
+  type.def_property_readonly(
+      "kind", [](const P& p) { return kind_of(p); }, "\"bspline\", \"gerbs\" or \"gregory\".");
   type.def_property_readonly(
       "is_rational", [](const P& p) { return p.info.is_rational != 0; }, "Whether it has weights.");
   type.def_property_readonly(
       "is_double", [](const P& p) { return p.info.is_double != 0; },
-      "Whether all its numbers are doubles. If not, evaluate works with the nearest ones, evaluate_exact with the numbers "
+      "Whether all its numbers are doubles. If not, evaluate works with the nearest ones, evaluate_exact with the "
+      "numbers "
       "themselves.");
   type.def("__reduce__", [parts](const P& p) {
     const auto model = py::cast(std::make_shared<Model>(p.model));

@@ -44,9 +44,10 @@ py::object cached_array(const Mesh& mesh, py::object& cached, std::vector<py::ss
 py::bytes to_bytes(const Mesh& mesh, const py::object& format) {
   const std::int32_t which = choose(format, {"stl", "obj", "ply", "glb", "vtu"}, "format");
   const std::size_t guess = 4096 + 100 * mesh.info.triangles;
-  return py::bytes(written(guess, [&](patchproof_context* context, char* buffer, std::size_t length, std::size_t* needed) {
-    return patchproof_mesh_write(context, mesh.handle.get(), which, buffer, length, needed);
-  }));
+  return py::bytes(
+      written(guess, [&](patchproof_context* context, char* buffer, std::size_t length, std::size_t* needed) {
+        return patchproof_mesh_write(context, mesh.handle.get(), which, buffer, length, needed);
+      }));
 }
 
 void write(const Mesh& mesh, const py::object& path, const py::object& format) {
@@ -66,7 +67,8 @@ void write(const Mesh& mesh, const py::object& path, const py::object& format) {
 }
 
 SharedMesh tessellate(const Model& model, double chord, std::optional<double> angle,
-                      std::optional<std::size_t> max_triangles, const py::object& method, int jobs, const py::object& progress) {
+                      std::optional<std::size_t> max_triangles, const py::object& method, int jobs,
+                      const py::object& progress) {
   auto options = sized<patchproof_tessellate_options>();
   if (!(chord > 0)) throw py::value_error("chord: a positive length is needed");
   options.chord = chord;
@@ -80,7 +82,8 @@ SharedMesh tessellate(const Model& model, double chord, std::optional<double> an
   MeshHandle made;
   watch.call([&](patchproof_context* context) {
     patchproof_mesh* mesh = nullptr;
-    const patchproof_status status = patchproof_tessellate(context, model.handle.get(), &options, watch.callback(), &mesh);
+    const patchproof_status status =
+        patchproof_tessellate(context, model.handle.get(), &options, watch.callback(), &mesh);
     made.reset(mesh);
     return status;
   });
@@ -92,8 +95,9 @@ bool is_watertight(const Mesh& m) { return m.info.cracks == 0 && m.info.branchin
 }  // namespace
 
 void bind_tessellate(py::module_& module) {
-  py::class_<Mesh, SharedMesh> mesh(module, "Mesh", py::is_final(),
-                                    "Triangles whose distance from the surface is proved. Lengths are in the model's units.");
+  py::class_<Mesh, SharedMesh> mesh(
+      module, "Mesh", py::is_final(),
+      "Triangles whose distance from the surface is proved. Lengths are in the model's units.");
   forbid_construction(mesh);
   forbid_pickling(mesh, "a Mesh cannot be pickled: keep its arrays, or mesh.to_bytes(\"ply\")");
   mesh.def_property_readonly(
@@ -110,12 +114,11 @@ void bind_tessellate(py::module_& module) {
       "Three numbers of vertices each, a read-only int32 array (m, 3).");
   mesh.def_property_readonly(
       "patches",
-      [](Mesh& m) {
-        return cached_array<std::int32_t>(m, m.patches, {static_cast<py::ssize_t>(m.info.triangles)});
-      },
+      [](Mesh& m) { return cached_array<std::int32_t>(m, m.patches, {static_cast<py::ssize_t>(m.info.triangles)}); },
       "The patch that each triangle belongs to, a read-only int32 array (m,).");
   const auto number = [&](const char* name, auto patchproof_mesh_info::*which, const char* doc) {
-    mesh.def_property_readonly(name, [which](Mesh& m) { return m.info.*which; }, doc);
+    mesh.def_property_readonly(
+        name, [which](Mesh& m) { return m.info.*which; }, doc);
   };
   number("chord", &patchproof_mesh_info::chord, "The proved distance between surface and triangles; inf: no bound.");
   number("angle", &patchproof_mesh_info::angle, "The proved angle between their normals in degrees; 180: no bound.");
@@ -150,8 +153,8 @@ Writes such a file; format None: by the extension of the path.)");
            ", angle " + shown(m.info.angle) + " degrees" + (is_watertight(m) ? ", watertight>" : ">");
   });
 
-  module.def("tessellate", &tessellate, py::arg("model"), py::arg("chord"), py::arg("angle") = py::none(), py::kw_only(),
-             py::arg("max_triangles") = py::none(), py::arg("method") = "adaptive", py::arg("jobs") = 0,
+  module.def("tessellate", &tessellate, py::arg("model"), py::arg("chord"), py::arg("angle") = py::none(),
+             py::kw_only(), py::arg("max_triangles") = py::none(), py::arg("method") = "adaptive", py::arg("jobs") = 0,
              py::arg("progress") = py::none(),
              R"(tessellate(model, chord, angle=None, *, max_triangles=None, method='adaptive', jobs=0, progress=None)
 --

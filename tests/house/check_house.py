@@ -32,7 +32,7 @@ MAY_INCLUDE = {
 }
 ROOM_OF_ROOT_FILE = {"error": "base", "contract": "base", "deadline": "base", "parallel": "base", "vec": "base", "instruction_set": "base", "c_api": "c_api"}
 TEMPLATE_ROOMS = ["spline", "patch", "join"]
-SCANNED = ["include", "src", "kernels", "tests", "examples", "validation", "cmake", "docs", ".ci"]
+SCANNED = ["include", "src", "kernels", "python", "tests", "examples", "validation", "cmake", "docs", ".ci"]
 SOURCE = {".h", ".hpp", ".cpp", ".c", ".py", ".cmake"}
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
