@@ -26,9 +26,15 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/patchproof-config.cmake cmake/patchpro
   ${CMAKE_CURRENT_BINARY_DIR}/patchproof-config-version.cmake cmake/number_libraries.cmake
   DESTINATION ${config_dir} COMPONENT dev)
 
-# pkg-config, relative to where the files lie.
-file(RELATIVE_PATH PATCHPROOF_PREFIX_FROM_PC /${pkgconfig_dir} /)
-string(REGEX REPLACE "/$" "" PATCHPROOF_PREFIX_FROM_PC "${PATCHPROOF_PREFIX_FROM_PC}")
+# pkg-config, relative to where the files lie, unless somebody asked for absolute folders.
+if(IS_ABSOLUTE ${pkgconfig_dir})
+  set(PATCHPROOF_PC_PREFIX ${CMAKE_INSTALL_PREFIX})
+else()
+  file(RELATIVE_PATH up /${pkgconfig_dir} /)
+  string(REGEX REPLACE "/$" "" PATCHPROOF_PC_PREFIX "\${pcfiledir}/${up}")
+endif()
+cmake_path(APPEND PATCHPROOF_PC_LIBDIR "\${prefix}" "${CMAKE_INSTALL_LIBDIR}")  # of two paths the absolute one
+cmake_path(APPEND PATCHPROOF_PC_INCLUDEDIR "\${prefix}" "${CMAKE_INSTALL_INCLUDEDIR}")
 set(PATCHPROOF_LINKED "-ltbb -lmpfi -lmpfr -lgmp -lfmt -lpugixml -lmd")
 foreach(name patchproof patchproof-static patchproof-cxx)
   configure_file(cmake/${name}.pc.in ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc @ONLY)

@@ -1,4 +1,7 @@
 # Debian packages, one for each component of cmake/install.cmake: `./dev packages`, or `cpack` in the build folder.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()  # the packages of a project that contains this one are its own business
+endif()
 set(PATCHPROOF_MAINTAINER "patchproof maintainers <maintainers@patchproof.example>" CACHE STRING "Of Debian packages")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME patchproof)
@@ -25,6 +28,14 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})  # the mo
 set(debian_version ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
 set(runtime_package libpatchproof${PATCHPROOF_ABI_VERSION})
 
+set(texts ${PROJECT_BINARY_DIR}/packaging)
+file(TIMESTAMP ${PROJECT_SOURCE_DIR}/CHANGELOG.md changed "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file(packaging/debian/changelog.in ${texts}/changelog @ONLY)
+foreach(text ${texts}/changelog ${PROJECT_SOURCE_DIR}/packaging/patchproof.1)
+  get_filename_component(name ${text} NAME)
+  execute_process(COMMAND gzip -9nc ${text} OUTPUT_FILE ${texts}/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+
 # patchproof_package(COMPONENT NAME SECTION DESCRIPTION COPYRIGHT…): its texts of packaging/debian, one after the other
 function(patchproof_package component name section description)
   string(TOUPPER ${component} upper)
@@ -33,9 +44,10 @@ function(patchproof_package component name section description)
     file(READ ${PROJECT_SOURCE_DIR}/packaging/debian/copyright_${part}.txt text)
     string(APPEND copyright "${text}")
   endforeach()
-  file(WRITE ${PROJECT_BINARY_DIR}/packaging/${name}.copyright "${copyright}")
-  install(FILES ${PROJECT_BINARY_DIR}/packaging/${name}.copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
-    RENAME copyright COMPONENT ${component})
+  file(WRITE ${texts}/${name}.copyright "${copyright}")
+  set(folder ${CMAKE_INSTALL_DATADIR}/doc/${name})
+  install(FILES ${texts}/${name}.copyright DESTINATION ${folder} RENAME copyright COMPONENT ${component})
+  install(FILES ${texts}/changelog.gz DESTINATION ${folder} RENAME changelog.Debian.gz COMPONENT ${component})
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name} PARENT_SCOPE)
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section} PARENT_SCOPE)
   set(CPACK_DEBIAN_${upper}_DESCRIPTION "${description}" PARENT_SCOPE)
@@ -50,6 +62,7 @@ patchproof_package(runtime ${runtime_package} libs "exact and certified free-for
 ${about}
 .
 This is the shared library with its C interface." ours libraries)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/debian/triggers)
 
 patchproof_package(dev libpatchproof-dev libdevel "exact and certified free-form geometry (development files)
 ${about}
@@ -70,6 +83,7 @@ ${about}
 This is the program: it certifies, evaluates, fills, tessellates, converts and
 draws models, STEP, IGES and BREP files among them." ours libraries tools bsd)
   set(CPACK_DEBIAN_TOOLS_PACKAGE_GENERATE_SHLIBS OFF)
+  install(FILES ${texts}/patchproof.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
 endif()
 
 get_cmake_property(components COMPONENTS)

@@ -4,6 +4,7 @@
     packages.py make CPACK BUILD WORK                    into WORK/packages
     packages.py check WORK PACKAGES_TXT VERSION ABI LIBDIR
 """
+import gzip
 import pathlib
 import re
 import shutil
@@ -43,6 +44,7 @@ class Package:
                                                    capture_output=True).stdout)
         with tarfile.open(plain) as tar:
             self.members = tar.getmembers()
+        self.texts = [f"usr/share/doc/{self.name}/{text}" for text in ("changelog.Debian.gz", "copyright")]
         self.files = sorted(m.name.removeprefix("./") for m in self.members if not m.isdir())
 
     def complain(self, sentence):
@@ -76,7 +78,9 @@ class Package:
         sums = (self.folder / "DEBIAN" / "md5sums").read_text().splitlines()
         named = sorted(line.split(None, 1)[1].removeprefix("./") for line in sums)
         self.require(named == sorted(m.name.removeprefix("./") for m in self.members if m.isfile()), "md5sums")
-        self.require(f"usr/share/doc/{self.name}/copyright" in self.files, "there is no copyright file")
+        self.require(set(self.texts) <= set(self.files), f"{self.texts} are not all there")
+        entry = gzip.decompress((self.folder / self.texts[0]).read_bytes()).decode("utf-8")
+        self.require(entry.startswith(f"patchproof ({version}-1) ") and f"-- {self.control['Maintainer']}  " in entry, entry)
         for path in (self.folder / name for name in self.files):
             if path.is_file() and not path.is_symlink() and path.suffix != ".a" and path.read_bytes()[:4] == b"\x7fELF":
                 sections = run("readelf", "-SW", path, env=environment())
@@ -90,8 +94,7 @@ class Package:
 
 def check_runtime(package, abi, version, libdir):
     folder = f"usr/{libdir}"
-    own = [f"{folder}/libpatchproof.so.{abi}", f"{folder}/libpatchproof.so.{version}",
-           f"usr/share/doc/{package.name}/copyright"]
+    own = [f"{folder}/libpatchproof.so.{abi}", f"{folder}/libpatchproof.so.{version}", *package.texts]
     package.require(package.files == sorted(own), f"contains {package.files}")
     for name in ("libc6", "libgmp10", "libmpfr6", "libmpfi0", "libtbb12", "libfmt9", "libpugixml1v5", "libmd0", "libstdc++6"):
         package.require(re.search(rf"(^|, ){re.escape(name)}( \(|,|$)", package.depends()),
@@ -99,8 +102,8 @@ def check_runtime(package, abi, version, libdir):
     package.require("occt" not in package.depends(), f"depends on Open CASCADE: {package.depends()}")
     shlibs = (package.folder / "DEBIAN" / "shlibs").read_text()
     package.require(shlibs.startswith(f"libpatchproof {abi} {package.name} (>= {version}"), f"shlibs '{shlibs}'")
-    for script in ("postinst", "postrm"):
-        package.require("ldconfig" in (package.folder / "DEBIAN" / script).read_text(), f"{script} does not call ldconfig")
+    triggers = package.folder / "DEBIAN" / "triggers"
+    package.require(triggers.is_file() and "ldconfig" in triggers.read_text(), "ldconfig is not told")
     package.require("LGPL" in package.copyright() and "GPL-3.0-or-later (/usr/share/common-licenses/GPL-3)"
                     not in package.copyright(), "the copyright text is another package's")
 
@@ -121,12 +124,17 @@ def check_dev(package, abi, version, libdir, packages_txt):
 
 
 def check_tools(package):
-    own = ["usr/bin/patchproof", f"usr/share/doc/{package.name}/copyright"]
+    own = ["usr/bin/patchproof", *package.texts, "usr/share/man/man1/patchproof.1.gz"]
     package.require(package.files == own, f"contains {package.files}")
     libraries = [value for tag, value in dynamic_section(package.folder / own[0]) if tag == "NEEDED"]
     occt = any(name.startswith("libTK") for name in libraries)
     package.require(occt == ("libocct-data-exchange" in package.depends()), f"depends on {package.depends()}")
     package.require("GPL-3.0-or-later" in package.copyright() and "CLI11" in package.copyright(), "the copyright text")
+
+    manual = gzip.decompress((package.folder / own[-1]).read_bytes()).decode("utf-8")
+    says = run(package.folder / own[0], "--help").split("Subcommands:")[1].split("Exit codes")[0]
+    for subcommand in re.findall(r"^  (\w+) ", says, re.M):
+        package.require(f"\n.B {subcommand}\n" in manual, f"the manual page says nothing of {subcommand}")
 
 
 def check_python(package, abi, version):
