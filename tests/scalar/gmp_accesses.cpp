@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What GMP reads and writes, told to ThreadSanitizer: GMP itself is not compiled for it. The linker puts these functions in
-// front of GMP's (tests/threads/CMakeLists.txt lists the same names, or the program does not link), so that a number which a call changes
-// although it is shared is a race like any other.
+// front of GMP's (tests/threads/CMakeLists.txt lists the same names, or the program does not link), so that a number which a
+// call changes although it is shared is a race like any other.
 #include <gmp.h>
 
 #include <cstdlib>
