@@ -91,7 +91,8 @@ PATCHPROOF_API patchproof_status patchproof_context_create(
     uint32_t flags, patchproof_context** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_context_free(patchproof_context* context) PATCHPROOF_NOEXCEPT;
 
-/** The texts are those of the last call with this context, and live until the next one. */
+/** The texts are those of the last call with this context, and live until the next one. Threads that share a context may find
+ *  the error of another's call here: have one for each thread. */
 typedef struct {
   size_t struct_size;
   patchproof_status status;

@@ -124,6 +124,7 @@ patchproof_status patchproof_last_error(const patchproof_context* context, patch
   if (context == nullptr || out == nullptr || out->struct_size < sizeof(patchproof_error))
     return PATCHPROOF_BAD_ARGUMENT;
   if (!context->alive) return PATCHPROOF_FREED_HANDLE;
+  if (context->busy.load(std::memory_order_acquire)) return PATCHPROOF_CONTEXT_BUSY;  // its texts are being written
   *out = {out->struct_size,           context->status,          borrowed(context->code), borrowed(context->where),
           borrowed(context->message), borrowed(context->values)};
   return PATCHPROOF_OK;
@@ -132,6 +133,7 @@ patchproof_status patchproof_last_error(const patchproof_context* context, patch
 const char* patchproof_error_text(const patchproof_context* context) noexcept {
   if (context == nullptr) return "PATCHPROOF_BAD_ARGUMENT: the context is NULL";
   if (!context->alive) return "PATCHPROOF_FREED_HANDLE: the context was freed before this call";
+  if (context->busy.load(std::memory_order_acquire)) return "PATCHPROOF_CONTEXT_BUSY: another call uses the context";
   // Where there was no memory for the text.
   if (context->line.empty() && context->status != PATCHPROOF_OK) return patchproof_status_name(context->status);
   return context->line.c_str();

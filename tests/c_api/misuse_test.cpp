@@ -230,14 +230,18 @@ TEST_F(CApiMisuse, ACallbackStopsThrowsOrUsesTheContext) {
   struct Seen {
     patchproof_context* context;
     patchproof_model* model;
-    patchproof_status busy = PATCHPROOF_OK, freed = PATCHPROOF_OK;
-    std::thread::id thread;
-  } seen{c(), m(), {}, {}, {}};
+    patchproof_status busy = PATCHPROOF_OK, freed = PATCHPROOF_OK, error = PATCHPROOF_OK;
+    std::string text = {};
+    std::thread::id thread = {};
+  } seen{c(), m()};
   const patchproof_callback uses{&seen, [](void* user, std::uint64_t, std::uint64_t) {
                                    Seen& s = *static_cast<Seen*>(user);
                                    patchproof_model_info info = sized<patchproof_model_info>();
                                    s.busy = patchproof_model_get_info(s.context, s.model, &info);
                                    s.freed = patchproof_context_free(s.context);
+                                   patchproof_error error = sized<patchproof_error>();
+                                   s.error = patchproof_last_error(s.context, &error);
+                                   s.text = patchproof_error_text(s.context);
                                    s.thread = std::this_thread::get_id();
                                    return 0;
                                  }};
@@ -245,6 +249,8 @@ TEST_F(CApiMisuse, ACallbackStopsThrowsOrUsesTheContext) {
   const Owned<patchproof_report> kept(report);
   EXPECT_EQ(seen.busy, PATCHPROOF_CONTEXT_BUSY);
   EXPECT_EQ(seen.freed, PATCHPROOF_CONTEXT_BUSY);
+  EXPECT_EQ(seen.error, PATCHPROOF_CONTEXT_BUSY);
+  EXPECT_EQ(seen.text.find("PATCHPROOF_CONTEXT_BUSY"), 0u);
   EXPECT_EQ(seen.thread, std::this_thread::get_id());
 }
 
