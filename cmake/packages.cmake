@@ -99,6 +99,8 @@ This is the Python module; it takes and returns arrays of numpy without copies."
     "${runtime_package} (= ${debian_version}), python3 (>= ${major}.${minor}), python3 (<< ${major}.${next}), \
 python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_GENERATE_SHLIBS OFF)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/debian/python/postinst
+    ${PROJECT_SOURCE_DIR}/packaging/debian/python/prerm)
 endif()
 include(CPack)
 
