@@ -14,7 +14,7 @@ EXAMPLES = ROOT / "examples"
 
 def pytest_configure(config):
     wanted = os.environ.get("PATCHPROOF_PACKAGE")
-    if wanted and pathlib.Path(patchproof.__file__).resolve().parent != pathlib.Path(wanted).resolve():
+    if wanted and pathlib.Path(patchproof.__file__).parent.resolve() != pathlib.Path(wanted).resolve():
         raise pytest.UsageError(f"tested would be {patchproof.__file__}, and not {wanted}")
 
 

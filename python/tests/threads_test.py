@@ -58,8 +58,8 @@ def test_other_threads_run_meanwhile(name, cup, nurbs):
         "certify": lambda: patchproof.certify(cup),
         "evaluate": lambda: nurbs.evaluate(uv, derivatives=2),
         "evaluate_rounded": lambda: nurbs.evaluate_rounded(uv),
-        "evaluate_exact": lambda: nurbs.evaluate_exact(uv[:100], order=3),
-        "tessellate": lambda: patchproof.tessellate(cup, 0.01),
+        "evaluate_exact": lambda: nurbs.evaluate_exact(uv[:50], order=3),
+        "tessellate": lambda: patchproof.tessellate(cup, 0.1),
         "fill": lambda: patchproof.fill_text(mesh, "football.json"),
         "read": lambda: patchproof.read_text(text, "large.json"),
     }[name]
@@ -77,7 +77,7 @@ def test_threads_hammer_one_patch():
     def hammer(seed):
         random = np.random.default_rng(seed)
         start.wait()
-        for _ in range(60):
+        for _ in range(25):
             pick = random.permutation(len(uv))[: random.integers(1, len(uv))]
             got = patch.evaluate(np.ascontiguousarray(uv[pick]), derivatives=2, normal=True, threads=int(random.integers(1, 3)))
             if not all(np.array_equal(a, b[pick]) for a, b in zip(got, want)):
@@ -117,7 +117,7 @@ def test_progress_is_told(cup):
     done = [d for d, _ in calls]
     assert done == sorted(done) and all(a is None or d <= a for d, a in calls)
     calls.clear()
-    patchproof.tessellate(cup, 0.1, progress=lambda done, all: calls.append((done, all)))
+    patchproof.tessellate(cup, 1.0, progress=lambda done, all: calls.append((done, all)))
     assert calls
 
 
@@ -126,10 +126,10 @@ class Stop(Exception):
 
 
 def works(cup):
-    mesh = (EXAMPLES / "meshes" / "football.json").read_text()
+    mesh = (EXAMPLES / "meshes" / "two_faces.json").read_text()
     return [lambda progress: patchproof.certify(cup, progress=progress),
-            lambda progress: patchproof.tessellate(cup, 0.05, progress=progress),
-            lambda progress: patchproof.fill_text(mesh, "football.json", progress=progress)]
+            lambda progress: patchproof.tessellate(cup, 1.0, progress=progress),
+            lambda progress: patchproof.fill_text(mesh, "two_faces.json", progress=progress)]
 
 
 def test_what_progress_raises_comes_out(cup):

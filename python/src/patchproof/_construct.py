@@ -84,8 +84,8 @@ def patch(data: Any, number: int) -> tuple[Any, ...]:
     if weights is not None and weights.shape != points.shape[:2]:
         raise TypeError(f"{name}.weights: an array of shape {weights.shape}; {points.shape[:2]} is needed")
     if data.degree is None:
-        degree = (points.shape[0] - 1, points.shape[1] - 1)
-        knots = (bezier_knots(degree[0]), bezier_knots(degree[1]))
+        degree: tuple[int, ...] = (points.shape[0] - 1, points.shape[1] - 1)
+        knots: tuple[NDArray[np.float64], ...] = (bezier_knots(degree[0]), bezier_knots(degree[1]))
     else:
         degree = tuple(int(d) for d in data.degree)
         knots = tuple(doubles(k, f"{name}.knots", 1) for k in data.knots)

@@ -95,7 +95,8 @@ def _integer(digits: str) -> int:
     if len(digits) <= _MOST_DIGITS:
         return int(digits)
     half = len(digits) // 2
-    return _integer(digits[:-half]) * 10**half + _integer(digits[-half:])
+    power: int = 10**half
+    return _integer(digits[:-half]) * power + _integer(digits[-half:])
 
 
 def _fraction(text: str) -> Fraction:
@@ -107,6 +108,7 @@ def _fraction(text: str) -> Fraction:
 
 
 def _text_of_fraction(x: Fraction) -> str:
-    if max(abs(x.numerator), x.denominator).bit_length() > _MOST_DIGITS * 3:
-        raise Error("bad_number", "", "a number of more than 4096 characters", f"{float(x):.17g} …" if x.denominator > 1 else "")
+    bits = max(abs(x.numerator), x.denominator).bit_length()
+    if bits > _MOST_DIGITS * 3:
+        raise Error("bad_number", "", "a number of more than 4096 characters", f"one of {bits} bits")
     return str(x)
