@@ -20,6 +20,9 @@ void* allocate(std::size_t size, std::size_t alignment = alignof(std::max_align_
   return place;
 }
 
+// Not inline: GCC compares each free with the operator new that it sees.
+[[gnu::noinline]] void release(void* place) noexcept { std::free(place); }
+
 }  // namespace
 
 void* operator new(std::size_t size) { return allocate(size); }
@@ -33,10 +36,10 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     return nullptr;
   }
 }
-void operator delete(void* place) noexcept { std::free(place); }
-void operator delete(void* place, std::size_t) noexcept { std::free(place); }
-void operator delete(void* place, std::align_val_t) noexcept { std::free(place); }
-void operator delete(void* place, std::size_t, std::align_val_t) noexcept { std::free(place); }
+void operator delete(void* place) noexcept { release(place); }
+void operator delete(void* place, std::size_t) noexcept { release(place); }
+void operator delete(void* place, std::align_val_t) noexcept { release(place); }
+void operator delete(void* place, std::size_t, std::align_val_t) noexcept { release(place); }
 
 namespace patchproof::test {
 namespace {
