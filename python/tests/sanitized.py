@@ -18,7 +18,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 SUITE = ["evaluate", "exact", "misuse", "results", "threads"]
-ONLY = "not other_threads and not ctrl_c"  # which take minutes here, and touch nothing more
+ONLY = "not other_threads and not ctrl_c"  # minutes here, and nothing more touched
 
 LEAK = """
 import ctypes, patchproof

@@ -112,7 +112,8 @@ def main():
                     all_of_it.append((ratio(call), min(times[call]) / min(times["C++"])))
                 print(f"| {name}, {'first derivatives' if derivatives else 'points'} | {layout} "
                       f"| {min(times['C++']) / COUNT * 1e9:.2f} | {c:.3f} | {python:.3f} | {ratio('C++, new arrays'):.3f} "
-                      f"| {ratio('Python, new arrays'):.3f} | {ratio('Python, new arrays', 'C++, new arrays'):.3f} |", flush=True)
+                      f"| {ratio('Python, new arrays'):.3f} | {ratio('Python, new arrays', 'C++, new arrays'):.3f} |",
+                      flush=True)
     for call, asked in (("C", 1.05), ("Python, out=", 1.2)):
         median, fastest = map(max, zip(*worst[call]))
         print(f"\n{call}: at most {median:.3f} by medians, {fastest:.3f} by the fastest rounds (asked for: {asked})", end="")
