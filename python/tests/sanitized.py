@@ -62,7 +62,8 @@ def require(condition, step, done):
 
 def main():
     preloaded, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
-    suite = ["-X", "faulthandler", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-o", "python_files=*_test.py", "-k", ONLY,
+    suite = ["-X", "faulthandler", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-o", "python_files=*_test.py",
+             "-k", ONLY,
              *(HERE / f"{name}_test.py" for name in SUITE)]
     done = run(preloaded, folder, suite, "detect_leaks=0")
     require(done.returncode == 0 and "AddressSanitizer" not in done.stderr, "the suite", done)

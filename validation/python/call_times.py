@@ -80,8 +80,8 @@ def main():
     uv = np.random.default_rng(2).random((COUNT, 2))
     layouts = {"pairs (n, 2)": uv, "two arrays": (uv[:, 0].copy(), uv[:, 1].copy())}
     outs = [np.zeros((COUNT, 3)) for _ in range(3)]
-    print("| 10⁶ parameters, one thread | | C++, ns | C / C++ | Python out= / C++ | C++ new arrays / C++ | Python new arrays / C++ |"
-          " Python / C++, both new |\n|---|---|---|---|---|---|---|---|")
+    print("| 10⁶ parameters, one thread | | C++, ns | C / C++ | Python out= / C++ | C++ new arrays / C++ "
+          "| Python new arrays / C++ | Python / C++, both new |\n|---|---|---|---|---|---|---|---|")
     worst = {"C": [], "Python, out=": []}
     for name, data in surfaces():
         patch = patchproof.Model([data]).patches[0]
