@@ -103,13 +103,16 @@ std::string text_of(const Report& report, std::int32_t format) {
 }
 
 SharedReport certify(const Model& model, const py::object& require, std::optional<double> gap,
-                     std::optional<double> angle, double seconds_per_join, std::optional<double> match, int jobs,
-                     const py::object& progress) {
+                     std::optional<double> angle, std::optional<double> curvature,
+                     const std::optional<std::string>& profile, double seconds_per_join, std::optional<double> match,
+                     int jobs, const py::object& progress) {
   auto options = sized<patchproof_certify_options>();
   constexpr std::int32_t classes[] = {PATCHPROOF_C0, PATCHPROOF_C1, PATCHPROOF_G1};
   options.require = require.is_none() ? PATCHPROOF_ANY : classes[choose(require, {"C0", "C1", "G1"}, "require")];
   if (gap) options.has_gap = 1, options.gap_tolerance = *gap;
   if (angle) options.has_angle = 1, options.angle_tolerance = *angle;
+  if (curvature) options.has_curvature = 1, options.curvature_tolerance = *curvature;
+  if (profile) options.profile = view(*profile);
   if (!(seconds_per_join > 0) || std::isinf(seconds_per_join))
     throw py::value_error("seconds_per_join: a positive number is needed");
   options.seconds_per_join = seconds_per_join;
@@ -166,9 +169,10 @@ The table that people read, worst joins first.)");
 
   module.def(
       "certify", &certify, py::arg("model"), py::arg("require") = py::none(), py::arg("gap") = py::none(),
-      py::arg("angle") = py::none(), py::kw_only(), py::arg("seconds_per_join") = 10.0, py::arg("match") = py::none(),
-      py::arg("jobs") = 0, py::arg("progress") = py::none(),
-      R"(certify(model, require=None, gap=None, angle=None, *, seconds_per_join=10.0, match=None, jobs=0, progress=None)
+      py::arg("angle") = py::none(), py::kw_only(), py::arg("curvature") = py::none(), py::arg("profile") = py::none(),
+      py::arg("seconds_per_join") = 10.0, py::arg("match") = py::none(), py::arg("jobs") = 0,
+      py::arg("progress") = py::none(),
+      R"(certify(model, require=None, gap=None, angle=None, *, curvature=None, profile=None, seconds_per_join=10.0, match=None, jobs=0, progress=None)
 --
 
 Finds the joins of the patches, or takes the declared ones, and proves, refutes or bounds each: a Report.
@@ -176,6 +180,8 @@ Finds the joins of the patches, or takes the declared ones, and proves, refutes 
 require           "C0", "C1" or "G1": every join must be proven of this class
 gap               a length that no gap may exceed
 angle             degrees that no angle between the normals may exceed
+curvature         of joins of curves: largest difference of curvature vectors, 1/length
+profile           thresholds for what is not given here, by the name that the program's --profile takes: "vda4955"
 seconds_per_join  then a join ends undecided
 match             edges within this length are looked at; None: 1e-6 of the model's diagonal
 jobs              threads; 0: one for each processor. The report does not depend on it

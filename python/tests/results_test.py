@@ -175,3 +175,15 @@ def test_values_print_themselves():
     stream = io.StringIO()
     print(patchproof.Derivatives(point=np.zeros(3)), file=stream)
     assert "point=" in stream.getvalue()
+
+
+def test_profiles_and_curvature():
+    points = plane(1, 2)
+    points[1:, :, 2] = 0.25
+    kinked = patchproof.Model([patchproof.PatchData(plane(0, 1)), patchproof.PatchData(points)], units="mm")
+    assert patchproof.certify(kinked, profile="vda4955").outcome == "fail"
+    assert patchproof.certify(kinked, angle=180.0, profile="vda4955").outcome == "pass"
+    with pytest.raises(ValueError, match="profile"):
+        patchproof.certify(kinked, profile="none such")
+    with pytest.raises(ValueError, match="curvature_tolerance"):
+        patchproof.certify(kinked, curvature=-1.0)
