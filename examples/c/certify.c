@@ -24,24 +24,24 @@ int main(int argc, char** argv) {
   patchproof_model* model = NULL;
   patchproof_report* report = NULL;
   if (argc < 2 || patchproof_context_create(0, &context) != PATCHPROOF_OK) return 2;
-  check(context, patchproof_model_read_file(context, patchproof_from(argv[1]), PATCHPROOF_EXACT, &model));
+  check(context, patchproof_model_read_file(context, patchproof_from(argv[1]), PATCHPROOF_DECIMALS_EXACT, &model));
 
   int calls = 0;
   const patchproof_callback callback = {&calls, count_calls};
-  patchproof_certify_options options = {.struct_size = sizeof options, .require = PATCHPROOF_G1};
+  patchproof_certify_options options = {.struct_size = sizeof options, .require = PATCHPROOF_CLASS_G1};
   check(context, patchproof_certify(context, model, &options, &callback, &report));
 
   patchproof_report_summary summary = {.struct_size = sizeof summary};
   check(context, patchproof_report_get_summary(context, report, &summary));
   printf("%zu joins: %zu pass, %zu fail, %zu undecided; the callback was called: %d\n", summary.joins, summary.passed,
-         summary.failed, summary.open, calls > 0);
+         summary.failed, summary.undecided, calls > 0);
   for (size_t i = 0; i < summary.joins; ++i) {
     patchproof_join_report join = {.struct_size = sizeof join};
     check(context, patchproof_report_get_join(context, report, i, &join));
     printf("patch %d %s - patch %d %s: G1 %s, angle in [%g, %g] degrees\n", (int)join.a.patch, join.a.edge.data,
            (int)join.b.patch, join.b.edge.data, verdicts[join.g1.verdict], join.angle.lower, join.angle.upper);
     patchproof_witness witness = {.struct_size = sizeof witness};
-    check(context, patchproof_report_get_witness(context, report, i, PATCHPROOF_G1, &witness));
+    check(context, patchproof_report_get_witness(context, report, i, PATCHPROOF_CLASS_G1, &witness));
     if (witness.found)
       printf("  witness: at (%s, %s) of patch %d %s is\n%s", witness.a[0].data, witness.a[1].data, (int)join.a.patch,
              witness.quantity.data, witness.values.data);

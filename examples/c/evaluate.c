@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   patchproof_model* model = NULL;
   patchproof_surface* surface = NULL;
   if (argc != 2 || patchproof_context_create(0, &context) != PATCHPROOF_OK) return 2;
-  check(context, patchproof_model_read_file(context, patchproof_from(argv[1]), PATCHPROOF_EXACT, &model));
+  check(context, patchproof_model_read_file(context, patchproof_from(argv[1]), PATCHPROOF_DECIMALS_EXACT, &model));
   check(context, patchproof_surface_of(context, model, 0, &surface));
 
   patchproof_spline_info info = {.struct_size = sizeof info};
@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   out.du = (patchproof_vectors){du, du + 1, du + 2, COUNT, 3};
   check(context, patchproof_surface_evaluate(context, surface, at, NULL, &out));
   double everywhere = 0;
-  check(context, patchproof_surface_error_bound(context, surface, PATCHPROOF_POINT, &everywhere));
+  check(context, patchproof_surface_error_bound(context, surface, PATCHPROOF_VECTOR_POINT, &everywhere));
   printf("%d points, each coordinate within %.3g of the exact one\n", COUNT, everywhere);
 
   const patchproof_vectors points = {point, point + 1, point + 2, COUNT, 3};
@@ -52,8 +52,8 @@ int main(int argc, char** argv) {
   const patchproof_text middle[] = {patchproof_from("1/2"), patchproof_from("0.5")};
   char text[4096];
   size_t needed = 0;
-  check(context, patchproof_model_patch_evaluate_exact(context, model, 0, middle, 2, NULL, PATCHPROOF_RATIONAL, 1, text,
-                                                       sizeof text, &needed));
+  check(context, patchproof_model_patch_evaluate_exact(context, model, 0, middle, 2, NULL, PATCHPROOF_SCALAR_RATIONAL,
+                                                       1, text, sizeof text, &needed));
   printf("%s", text);
 
   patchproof_surface_free(surface);

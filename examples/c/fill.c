@@ -23,15 +23,15 @@ int main(int argc, char** argv) {
   patchproof_fill_summary summary = {.struct_size = sizeof summary};
   check(context, patchproof_fill(context, mesh, patchproof_from(argv[1]), NULL, NULL, &model, &summary));
   printf("%zu faces, %zu smooth edges\nG1: %zu proven, %zu refuted, %zu undecided\n", summary.faces,
-         summary.smooth_edges, summary.g1[PATCHPROOF_PROVEN], summary.g1[PATCHPROOF_REFUTED],
-         summary.g1[PATCHPROOF_UNDECIDED]);
+         summary.smooth_edges, summary.g1[PATCHPROOF_VERDICT_PROVEN], summary.g1[PATCHPROOF_VERDICT_REFUTED],
+         summary.g1[PATCHPROOF_VERDICT_UNDECIDED]);
   printf("%s", summary.findings.data); /* what is not proven */
 
   size_t needed = 0;
-  patchproof_model_write(context, model, PATCHPROOF_JSON, NULL, 0, &needed);
+  patchproof_model_write(context, model, PATCHPROOF_FORMAT_JSON, NULL, 0, &needed);
   char* json = malloc(needed);
   if (json == NULL) return 2;
-  check(context, patchproof_model_write(context, model, PATCHPROOF_JSON, json, needed, &needed));
+  check(context, patchproof_model_write(context, model, PATCHPROOF_FORMAT_JSON, json, needed, &needed));
   file = fopen(argv[2], "wb");
   if (file == NULL || fwrite(json, 1, needed - 1, file) != needed - 1 || fclose(file) != 0) return 2;
 

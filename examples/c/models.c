@@ -53,15 +53,16 @@ int main(void) {
 
   /* The length first, then the bytes. */
   size_t needed = 0;
-  if (patchproof_model_write(context, model, PATCHPROOF_JSON, NULL, 0, &needed) != PATCHPROOF_BUFFER_TOO_SMALL)
+  if (patchproof_model_write(context, model, PATCHPROOF_FORMAT_JSON, NULL, 0, &needed) != PATCHPROOF_BUFFER_TOO_SMALL)
     return 1;
   char* json = malloc(needed);
   if (json == NULL) return 2;
-  check(context, patchproof_model_write(context, model, PATCHPROOF_JSON, json, needed, &needed));
+  check(context, patchproof_model_write(context, model, PATCHPROOF_FORMAT_JSON, json, needed, &needed));
 
   patchproof_model* again = NULL;
   const patchproof_text text = {json, needed - 1};
-  check(context, patchproof_model_read_text(context, text, patchproof_from("again.json"), PATCHPROOF_EXACT, &again));
+  check(context,
+        patchproof_model_read_text(context, text, patchproof_from("again.json"), PATCHPROOF_DECIMALS_EXACT, &again));
   double weight[6];
   patchproof_spline_buffers buffers = {.struct_size = sizeof buffers, .weights = weight, .weights_length = 6};
   check(context, patchproof_model_patch_get_data(context, again, 0, &buffers));
@@ -70,7 +71,7 @@ int main(void) {
   /* What is wrong, and where. */
   patchproof_model* none = NULL;
   const patchproof_text wrong = patchproof_from("{\"format\":\"patchproof-model\",\"version\":1,\"patches\":7}");
-  if (patchproof_model_read_text(context, wrong, patchproof_from("wrong.json"), PATCHPROOF_EXACT, &none) !=
+  if (patchproof_model_read_text(context, wrong, patchproof_from("wrong.json"), PATCHPROOF_DECIMALS_EXACT, &none) !=
       PATCHPROOF_BAD_DATA)
     return 1;
   patchproof_error error = {.struct_size = sizeof error};

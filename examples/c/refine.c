@@ -16,19 +16,19 @@ static void check(patchproof_context* context, patchproof_status status) {
 static void point_of(patchproof_context* context, const patchproof_model* model, char text[512]) {
   const patchproof_text uv[] = {patchproof_from("1/7"), patchproof_from("5/7")};
   size_t needed = 0;
-  check(context, patchproof_model_patch_evaluate_exact(context, model, 0, uv, 2, NULL, PATCHPROOF_RATIONAL, 0, text,
-                                                       512, &needed));
+  check(context, patchproof_model_patch_evaluate_exact(context, model, 0, uv, 2, NULL, PATCHPROOF_SCALAR_RATIONAL, 0,
+                                                       text, 512, &needed));
 }
 
 int main(int argc, char** argv) {
   patchproof_context* context = NULL;
   patchproof_model *model = NULL, *finer = NULL, *higher = NULL, *pieces = NULL;
   if (argc != 2 || patchproof_context_create(0, &context) != PATCHPROOF_OK) return 2;
-  check(context, patchproof_model_read_file(context, patchproof_from(argv[1]), PATCHPROOF_EXACT, &model));
+  check(context, patchproof_model_read_file(context, patchproof_from(argv[1]), PATCHPROOF_DECIMALS_EXACT, &model));
 
   const patchproof_text knots[] = {patchproof_from("1/3"), patchproof_from("2/3"), patchproof_from("2/3")};
-  check(context, patchproof_model_patch_insert_knots(context, model, 0, PATCHPROOF_U, knots, 3, &finer));
-  check(context, patchproof_model_patch_elevate(context, finer, 0, PATCHPROOF_V, 2, &higher));
+  check(context, patchproof_model_patch_insert_knots(context, model, 0, PATCHPROOF_DIRECTION_U, knots, 3, &finer));
+  check(context, patchproof_model_patch_elevate(context, finer, 0, PATCHPROOF_DIRECTION_V, 2, &higher));
   check(context, patchproof_model_patch_extract_bezier(context, higher, 0, &pieces));
 
   patchproof_spline_info before = {.struct_size = sizeof before}, after = {.struct_size = sizeof after};

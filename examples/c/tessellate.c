@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   patchproof_model* model = NULL;
   patchproof_mesh* mesh = NULL;
   if (argc != 4 || patchproof_context_create(0, &context) != PATCHPROOF_OK) return 2;
-  check(context, patchproof_model_read_file(context, patchproof_from(argv[1]), PATCHPROOF_EXACT, &model));
+  check(context, patchproof_model_read_file(context, patchproof_from(argv[1]), PATCHPROOF_DECIMALS_EXACT, &model));
 
   patchproof_tessellate_options options = {.struct_size = sizeof options, .chord = atof(argv[2])};
   check(context, patchproof_tessellate(context, model, &options, NULL, &mesh));
@@ -36,10 +36,10 @@ int main(int argc, char** argv) {
     if (triangles[i] < 0 || (size_t)triangles[i] >= info.vertices) return 1;
 
   size_t needed = 0;
-  patchproof_mesh_write(context, mesh, PATCHPROOF_STL, NULL, 0, &needed);
+  patchproof_mesh_write(context, mesh, PATCHPROOF_MESH_STL, NULL, 0, &needed);
   char* bytes = malloc(needed);
   if (bytes == NULL) return 2;
-  check(context, patchproof_mesh_write(context, mesh, PATCHPROOF_STL, bytes, needed, &needed));
+  check(context, patchproof_mesh_write(context, mesh, PATCHPROOF_MESH_STL, bytes, needed, &needed));
   FILE* file = fopen(argv[3], "wb");
   if (file == NULL || fwrite(bytes, 1, needed - 1, file) != needed - 1 || fclose(file) != 0) return 2;
 

@@ -8,13 +8,13 @@
  *     patchproof_model* model = NULL;
  *     patchproof_report* report = NULL;
  *     if (patchproof_context_create(0, &context) != PATCHPROOF_OK) return 1;
- *     if (patchproof_model_read_file(context, patchproof_from("part.json"), PATCHPROOF_EXACT, &model) != PATCHPROOF_OK ||
+ *     if (patchproof_model_read_file(context, patchproof_from("part.json"), 0, &model) != PATCHPROOF_OK ||
  *         patchproof_certify(context, model, NULL, NULL, &report) != PATCHPROOF_OK)
  *       puts(patchproof_error_text(context));
  *
  * Conventions, which every function keeps:
- *  - It returns a status. On any but PATCHPROOF_OK the context says what was wrong, and outputs are as they were; only arrays of
- *    results may be partly written.
+ *  - It returns a status. On any but PATCHPROOF_OK the context that was given says what was wrong, and outputs are as they were;
+ *    only arrays of results may be partly written. Results must not overlap what is read.
  *  - No exception leaves it, nothing is printed, no signal handler or global state is touched. The floating-point environment of
  *    the caller (rounding, flush-to-zero, exception flags) has no influence, and is given back as it was.
  *  - Handles are opaque and, but for contexts, never change: any number of threads may use one at once. A context serves one call
@@ -23,7 +23,8 @@
  *    length: *needed tells the length it takes, and PATCHPROOF_BUFFER_TOO_SMALL says that there was less (ask with NULL and 0).
  *  - Texts are UTF-8 with their length; texts that come out end in a zero byte as well, and live as long as the handle they
  *    came from.
- *  - Structs begin with their size, set by the caller, so that they may grow; all other members are 0 for the default.
+ *  - Structs that may grow begin with their size, which the caller sets; all other members are 0 for the default. The other
+ *    structs stay as they are.
  *  - Parameters are those of the patch's own domain, both ends included; lengths are in the model's units, angles in degrees.
  *    Patches and curves count from 0. Points along v run fastest.
  */
@@ -39,7 +40,11 @@
 #endif
 /* clang-format off */
 #ifdef __cplusplus
+#if __cplusplus >= 201103L
 #define PATCHPROOF_NOEXCEPT noexcept
+#else
+#define PATCHPROOF_NOEXCEPT
+#endif
 extern "C" {
 #else
 #define PATCHPROOF_NOEXCEPT
@@ -118,7 +123,7 @@ typedef struct {
 typedef struct patchproof_model patchproof_model;
 
 /** Decimals in files: as they stand, or as the nearest doubles. */
-enum { PATCHPROOF_EXACT = 0, PATCHPROOF_BINARY64 = 1 };
+enum { PATCHPROOF_DECIMALS_EXACT = 0, PATCHPROOF_DECIMALS_BINARY64 = 1 };
 
 /** Every text format of docs/formats.md; not STEP, IGES, BREP, which the program reads. */
 PATCHPROOF_API patchproof_status patchproof_model_read_file(
@@ -154,7 +159,7 @@ typedef struct {
   patchproof_text name;
 } patchproof_curve_data;
 
-enum { PATCHPROOF_U_MIN = 0, PATCHPROOF_U_MAX = 1, PATCHPROOF_V_MIN = 2, PATCHPROOF_V_MAX = 3 };
+enum { PATCHPROOF_EDGE_U_MIN = 0, PATCHPROOF_EDGE_U_MAX = 1, PATCHPROOF_EDGE_V_MIN = 2, PATCHPROOF_EDGE_V_MAX = 3 };
 /** Whole edges that belong together; reversed: their parameters run against each other. */
 typedef struct {
   int32_t patch_a, edge_a, patch_b, edge_b, reversed;
@@ -170,6 +175,7 @@ typedef struct {
   size_t joins_length;
   patchproof_text units; /**< "mm" */
 } patchproof_model_data;
+/** Weights as in files: any but those under which the denominator vanishes; 0 and negative ones as well. */
 PATCHPROOF_API patchproof_status patchproof_model_create(
     patchproof_context* context, const patchproof_model_data* data, patchproof_model** out) PATCHPROOF_NOEXCEPT;
 PATCHPROOF_API patchproof_status patchproof_model_free(patchproof_model* model) PATCHPROOF_NOEXCEPT;
@@ -185,7 +191,7 @@ typedef struct {
 PATCHPROOF_API patchproof_status patchproof_model_get_info(
     patchproof_context* context, const patchproof_model* model, patchproof_model_info* out) PATCHPROOF_NOEXCEPT;
 
-enum { PATCHPROOF_BSPLINE = 0, PATCHPROOF_GERBS = 1, PATCHPROOF_GREGORY = 2 };
+enum { PATCHPROOF_KIND_BSPLINE = 0, PATCHPROOF_KIND_GERBS = 1, PATCHPROOF_KIND_GREGORY = 2 };
 /** Of a patch, or of a curve, which has zeros for v. Of GERBS and Gregory patches only kind, domain and name. */
 typedef struct {
   size_t struct_size;
@@ -211,14 +217,15 @@ PATCHPROOF_API patchproof_status patchproof_model_patch_get_data(patchproof_cont
 PATCHPROOF_API patchproof_status patchproof_model_curve_get_data(patchproof_context* context,
     const patchproof_model* model, size_t curve, const patchproof_spline_buffers* out) PATCHPROOF_NOEXCEPT;
 
-enum { PATCHPROOF_JSON = 0, PATCHPROOF_G2 = 1 };
-/** JSON keeps every number exactly; .g2 rounds to doubles. *needed counts the zero byte at the end. */
+enum { PATCHPROOF_FORMAT_JSON = 0, PATCHPROOF_FORMAT_G2 = 1 };
+/** JSON keeps every number exactly; .g2 rounds to doubles, and models with Gregory patches are refused for it.
+ *  *needed counts the zero byte at the end. */
 PATCHPROOF_API patchproof_status patchproof_model_write(patchproof_context* context, const patchproof_model* model,
     int32_t format, char* buffer, size_t length, size_t* needed) PATCHPROOF_NOEXCEPT;
 
 /* ---- Refinement: exact. The same surface under other knots, in a new model ------- */
 
-enum { PATCHPROOF_U = 0, PATCHPROOF_V = 1 };
+enum { PATCHPROOF_DIRECTION_U = 0, PATCHPROOF_DIRECTION_V = 1 };
 /** The model with its B-spline patch on finer knots; each text ("1/3", "0.25") is one knot, inserted once. */
 PATCHPROOF_API patchproof_status patchproof_model_patch_insert_knots(patchproof_context* context,
     const patchproof_model* model, size_t patch, int32_t direction, const patchproof_text* knots, size_t length,
@@ -270,7 +277,7 @@ typedef struct {
   ptrdiff_t stride;
 } patchproof_vectors;
 
-enum { PATCHPROOF_RIGHT = 0, PATCHPROOF_LEFT = 1 };
+enum { PATCHPROOF_SIDE_RIGHT = 0, PATCHPROOF_SIDE_LEFT = 1 };
 typedef struct {
   size_t struct_size;
   int32_t side_u, side_v; /**< which limit counts at a knot */
@@ -283,7 +290,8 @@ typedef struct {
   patchproof_vectors point, du, dv, normal, duu, duv, dvv;
   size_t undefined_normals; /**< set by the call */
 } patchproof_derivatives;
-/** Points and derivatives in double, each within patchproof_surface_error_bound of the exact value at these doubles.
+/** Points and derivatives in double, each within patchproof_surface_error_bound of the exact value at these doubles (so an edge
+ *  that two patches share may differ in its last digits; patchproof_surface_evaluate_rounded gives the same there).
  *  ERRORS PATCHPROOF_BAD_DATA, outside_domain (NaN is) or vanishing_weight, naming the first item. */
 PATCHPROOF_API patchproof_status patchproof_surface_evaluate(patchproof_context* context,
     const patchproof_surface* surface, patchproof_parameters at, const patchproof_evaluate_options* options,
@@ -296,12 +304,12 @@ PATCHPROOF_API patchproof_status patchproof_curve_evaluate(patchproof_context* c
     patchproof_parameters at, const patchproof_evaluate_options* options,
     patchproof_derivatives* out) PATCHPROOF_NOEXCEPT;
 enum {
-  PATCHPROOF_POINT = 0,
-  PATCHPROOF_DU = 1,
-  PATCHPROOF_DV = 2,
-  PATCHPROOF_DUU = 3,
-  PATCHPROOF_DUV = 4,
-  PATCHPROOF_DVV = 5
+  PATCHPROOF_VECTOR_POINT = 0,
+  PATCHPROOF_VECTOR_DU = 1,
+  PATCHPROOF_VECTOR_DV = 2,
+  PATCHPROOF_VECTOR_DUU = 3,
+  PATCHPROOF_VECTOR_DUV = 4,
+  PATCHPROOF_VECTOR_DVV = 5
 };
 /** |computed − exact| of each coordinate, everywhere; +infinity where nothing is known. Of curves: POINT, DU, DUU. */
 PATCHPROOF_API patchproof_status patchproof_surface_error_bound(
@@ -321,7 +329,7 @@ PATCHPROOF_API patchproof_status patchproof_surface_evaluate_rounded(patchproof_
     const patchproof_surface* surface, patchproof_parameters at, const patchproof_evaluate_options* options,
     patchproof_vectors point) PATCHPROOF_NOEXCEPT;
 
-enum { PATCHPROOF_RATIONAL = 0, PATCHPROOF_INTERVAL = 1 };
+enum { PATCHPROOF_SCALAR_RATIONAL = 0, PATCHPROOF_SCALAR_INTERVAL = 1 };
 /** Exact values as texts, "1/3" or "2*sqrt(2)" (intervals: "[0.5, 0.75]"), of any patch of the model, at texts
  *  u v u v … (of a curve t t …). Numbers one to a line: for each item, for each derivative in the order S S_u S_v S_uu S_uv
  *  S_vv … up to the total `order`, its x, y and z. *needed counts the zero byte at the end.
@@ -339,9 +347,15 @@ PATCHPROOF_API patchproof_status patchproof_model_curve_evaluate_exact(patchproo
 
 typedef struct patchproof_report patchproof_report;
 
-enum { PATCHPROOF_ANY = 0, PATCHPROOF_C0 = 1, PATCHPROOF_C1 = 2, PATCHPROOF_G1 = 3, PATCHPROOF_C2 = 4 };
-enum { PATCHPROOF_PROVEN = 0, PATCHPROOF_REFUTED = 1, PATCHPROOF_UNDECIDED = 2 };
-enum { PATCHPROOF_PASS = 0, PATCHPROOF_FAIL = 1, PATCHPROOF_OPEN = 2 };
+enum {
+  PATCHPROOF_CLASS_ANY = 0,
+  PATCHPROOF_CLASS_C0 = 1,
+  PATCHPROOF_CLASS_C1 = 2,
+  PATCHPROOF_CLASS_G1 = 3,
+  PATCHPROOF_CLASS_C2 = 4
+};
+enum { PATCHPROOF_VERDICT_PROVEN = 0, PATCHPROOF_VERDICT_REFUTED = 1, PATCHPROOF_VERDICT_UNDECIDED = 2 };
+enum { PATCHPROOF_OUTCOME_PASS = 0, PATCHPROOF_OUTCOME_FAIL = 1, PATCHPROOF_OUTCOME_UNDECIDED = 2 };
 
 typedef struct {
   size_t struct_size;
@@ -364,10 +378,13 @@ PATCHPROOF_API patchproof_status patchproof_report_free(patchproof_report* repor
 
 typedef struct {
   size_t struct_size;
-  int32_t outcome;                    /**< PASS, FAIL, OPEN over everything asked */
-  size_t joins, passed, failed, open; /**< of patches */
-  size_t curve_joins, unmatched_edges, collapsed_edges, gregory_patches;
-  double largest_gap[2], largest_angle[2]; /**< over all joins: lower and upper bound */
+  int32_t outcome;                                         /**< over everything asked, curves as well */
+  size_t joins, passed, failed, undecided;                 /**< of patches */
+  size_t curve_joins, curve_passed, curve_failed, curve_undecided;
+  size_t unmatched_edges;                                  /**< with no partner within match_length: they are no joins */
+  size_t collapsed_edges;                                  /**< that are one point (poles) */
+  size_t gregory_patches;
+  double largest_gap[2], largest_angle[2];                 /**< over all joins of patches: lower and upper bound */
 } patchproof_report_summary;
 PATCHPROOF_API patchproof_status patchproof_report_get_summary(
     patchproof_context* context, const patchproof_report* report, patchproof_report_summary* out) PATCHPROOF_NOEXCEPT;
@@ -386,19 +403,44 @@ typedef struct {
   patchproof_text edge;     /**< "u_min", or "u = 1/2" for a line inside the patch */
   patchproof_text range[2]; /**< exact parameters, in the order in which the join runs through them */
 } patchproof_join_side;
-enum { PATCHPROOF_SMOOTH = 0, PATCHPROOF_CUSP = 1, PATCHPROOF_MIXED = 2, PATCHPROOF_UNKNOWN = 3 };
+enum {
+  PATCHPROOF_ORIENTATION_SMOOTH = 0,
+  PATCHPROOF_ORIENTATION_CUSP = 1,
+  PATCHPROOF_ORIENTATION_MIXED = 2,
+  PATCHPROOF_ORIENTATION_UNKNOWN = 3
+};
+/** Of a join of two patches. With t the parameter along line A and s the distance in parameters into each patch, x_t, x_s are
+ *  derivatives of patch A, y_t, y_s of patch B. */
 typedef struct {
   size_t struct_size;
+  int32_t id; /**< its number in the table and in the JSON, from 1 */
   patchproof_join_side a, b;
   int32_t reversed;
   patchproof_verdict c0, c1, c2, g1;
-  patchproof_text ratio; /**< exact λ > 0 with y_s = −λ x_s, "" when there is none */
-  patchproof_maximum gap, angle, plane_angle;
-  int32_t orientation, outcome;
+  patchproof_text ratio;         /**< exact λ > 0 with y_s = −λ x_s, "" when there is none */
+  patchproof_maximum gap;        /**< distance of paired points */
+  patchproof_maximum angle;      /**< of the oriented normals, 0 to 180 degrees: 180 folds back */
+  patchproof_maximum plane_angle; /**< of the tangent planes, 0 to 90 degrees */
+  int32_t orientation;           /**< SMOOTH: B goes on across the edge everywhere; CUSP: it folds back everywhere */
+  int32_t outcome;
   patchproof_text reason; /**< of the outcome */
 } patchproof_join_report;
 PATCHPROOF_API patchproof_status patchproof_report_get_join(patchproof_context* context,
     const patchproof_report* report, size_t join, patchproof_join_report* out) PATCHPROOF_NOEXCEPT;
+/** Of two ends of curves that meet; the JSON has its exact numbers. */
+typedef struct {
+  size_t struct_size;
+  int32_t id;
+  int32_t curve_a, end_a, curve_b, end_b; /**< end: 0 where the parameter begins, 1 where it ends */
+  double point[3];
+  patchproof_verdict c0, c1, c2, g1, g2;
+  double gap[2], angle[2], curvature[2]; /**< enclosed: distance, angle of travel (degrees), difference of curvature
+                                              vectors; +infinity above where there is none */
+  int32_t outcome;
+  patchproof_text reason;
+} patchproof_curve_join_report;
+PATCHPROOF_API patchproof_status patchproof_report_get_curve_join(patchproof_context* context,
+    const patchproof_report* report, size_t join, patchproof_curve_join_report* out) PATCHPROOF_NOEXCEPT;
 /** Exact numbers that refute a class (C0, C1, C2, G1) of a join; found is 0 where it has no witness. */
 typedef struct {
   size_t struct_size;
@@ -417,7 +459,7 @@ PATCHPROOF_API patchproof_status patchproof_report_write(patchproof_context* con
 
 typedef struct {
   size_t struct_size;
-  int32_t decimals; /**< PATCHPROOF_EXACT, PATCHPROOF_BINARY64 */
+  int32_t decimals; /**< PATCHPROOF_DECIMALS_EXACT, PATCHPROOF_DECIMALS_BINARY64 */
   int32_t repairs;  /**< 1: first make exact what misses it by repair_angle degrees at most */
   double repair_angle;
   int32_t jobs;
@@ -439,7 +481,7 @@ PATCHPROOF_API patchproof_status patchproof_fill(patchproof_context* context, pa
 
 typedef struct patchproof_mesh patchproof_mesh;
 
-enum { PATCHPROOF_ADAPTIVE = 0, PATCHPROOF_REGULAR = 1 };
+enum { PATCHPROOF_METHOD_ADAPTIVE = 0, PATCHPROOF_METHOD_REGULAR = 1 };
 typedef struct {
   size_t struct_size;
   double chord;         /**< largest distance between surface and triangles, > 0 */
@@ -447,6 +489,8 @@ typedef struct {
   size_t max_triangles; /**< 0: 2^24 */
   int32_t method, jobs;
 } patchproof_tessellate_options;
+/** The B-spline patches of the model as triangles, those that join sharing their vertices. Gregory patches are left out, and
+ *  models with nothing else refused, as are GERBS that are no splines. */
 PATCHPROOF_API patchproof_status patchproof_tessellate(patchproof_context* context, const patchproof_model* model,
     const patchproof_tessellate_options* options, const patchproof_callback* callback,
     patchproof_mesh** out) PATCHPROOF_NOEXCEPT;
@@ -468,7 +512,13 @@ PATCHPROOF_API patchproof_status patchproof_mesh_get_info(
 PATCHPROOF_API patchproof_status patchproof_mesh_get_data(patchproof_context* context, const patchproof_mesh* mesh,
     double* vertices, size_t vertices_length, int32_t* triangles, size_t triangles_length, int32_t* patches,
     size_t patches_length) PATCHPROOF_NOEXCEPT;
-enum { PATCHPROOF_STL = 0, PATCHPROOF_OBJ = 1, PATCHPROOF_PLY = 2, PATCHPROOF_GLB = 3, PATCHPROOF_VTU = 4 };
+enum {
+  PATCHPROOF_MESH_STL = 0,
+  PATCHPROOF_MESH_OBJ = 1,
+  PATCHPROOF_MESH_PLY = 2,
+  PATCHPROOF_MESH_GLB = 3,
+  PATCHPROOF_MESH_VTU = 4
+};
 /** The bytes of a file. *needed counts a zero byte at the end, which is not part of it. STL and GLB hold single precision: their
  *  vertices lie up to 1.74 · 2^-24 · (largest coordinate) beside those of the mesh, on top of its chord error. */
 PATCHPROOF_API patchproof_status patchproof_mesh_write(patchproof_context* context, const patchproof_mesh* mesh,

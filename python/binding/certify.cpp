@@ -14,7 +14,7 @@ namespace {
 struct Report {
   explicit Report(ReportHandle made) : handle(std::move(made)) {}
   ReportHandle handle;
-  py::object joins;  // a tuple, made when it is first asked for
+  py::object joins, curve_joins;  // tuples, made when they are first asked for
 };
 using SharedReport = std::shared_ptr<Report>;
 
@@ -26,7 +26,8 @@ constexpr const char* kOrientations[] = {"smooth", "cusp", "mixed", "unknown"};
 struct Records {
   py::object bounds = member("_values", "Bounds"), verdict = member("_values", "Verdict"),
              witness = member("_values", "Witness"), side = member("_values", "JoinSide"),
-             join = member("_values", "Join"), exact = member("_numbers", "exact_or_text");
+             join = member("_values", "Join"), curve_join = member("_values", "CurveJoin"),
+             exact = member("_numbers", "exact_or_text");
 
   py::object maximum(const patchproof_maximum& m) const {
     return bounds(m.lower, m.upper, py::make_tuple(m.point[0], m.point[1], m.point[2]), m.converged != 0);
@@ -57,10 +58,10 @@ py::object join_of(const Report& report, std::size_t number, const Records& reco
     return records.verdict(kVerdicts[v.verdict], to_str(v.reason), witness_of(report, number, continuity, records));
   };
   return records.join(
-      py::arg("number") = number, py::arg("a") = records.join_side(join.a), py::arg("b") = records.join_side(join.b),
-      py::arg("reversed") = join.reversed != 0, py::arg("c0") = verdict(join.c0, PATCHPROOF_C0),
-      py::arg("c1") = verdict(join.c1, PATCHPROOF_C1), py::arg("c2") = verdict(join.c2, PATCHPROOF_C2),
-      py::arg("g1") = verdict(join.g1, PATCHPROOF_G1),
+      py::arg("id") = join.id, py::arg("a") = records.join_side(join.a), py::arg("b") = records.join_side(join.b),
+      py::arg("reversed") = join.reversed != 0, py::arg("c0") = verdict(join.c0, PATCHPROOF_CLASS_C0),
+      py::arg("c1") = verdict(join.c1, PATCHPROOF_CLASS_C1), py::arg("c2") = verdict(join.c2, PATCHPROOF_CLASS_C2),
+      py::arg("g1") = verdict(join.g1, PATCHPROOF_CLASS_G1),
       py::arg("ratio") = join.ratio.length == 0 ? py::object(py::none()) : records.exact(to_str(join.ratio)),
       py::arg("gap") = records.maximum(join.gap), py::arg("angle") = records.maximum(join.angle),
       py::arg("plane_angle") = records.maximum(join.plane_angle),
@@ -84,14 +85,45 @@ py::object joins_of(Report& report) {
   return report.joins;
 }
 
+py::object curve_joins_of(Report& report) {
+  if (report.curve_joins) return report.curve_joins;
+  const Records records;
+  const std::size_t count = summary_of(report).curve_joins;
+  py::tuple all(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    auto join = sized<patchproof_curve_join_report>();
+    call([&](patchproof_context* context) {
+      return patchproof_report_get_curve_join(context, report.handle.get(), i, &join);
+    });
+    const auto verdict = [&](const patchproof_verdict& v) {
+      return records.verdict(kVerdicts[v.verdict], to_str(v.reason));
+    };
+    const auto end = [](std::int32_t curve, std::int32_t at_end) {
+      return py::make_tuple(curve, at_end != 0 ? "end" : "begin");
+    };
+    const auto bounds = [&](const double(&b)[2]) { return records.bounds(b[0], b[1]); };
+    all[i] = records.curve_join(py::arg("id") = join.id, py::arg("a") = end(join.curve_a, join.end_a),
+                                py::arg("b") = end(join.curve_b, join.end_b),
+                                py::arg("point") = py::make_tuple(join.point[0], join.point[1], join.point[2]),
+                                py::arg("c0") = verdict(join.c0), py::arg("c1") = verdict(join.c1),
+                                py::arg("c2") = verdict(join.c2), py::arg("g1") = verdict(join.g1),
+                                py::arg("g2") = verdict(join.g2), py::arg("gap") = bounds(join.gap),
+                                py::arg("angle") = bounds(join.angle), py::arg("curvature") = bounds(join.curvature),
+                                py::arg("outcome") = kOutcomes[join.outcome], py::arg("reason") = to_str(join.reason));
+  }
+  report.curve_joins = all;
+  return report.curve_joins;
+}
+
 py::object summary_record(Report& report) {
   const auto s = summary_of(report);
   const py::object bounds = member("_values", "Bounds");
   return member("_values", "ReportSummary")(
       py::arg("outcome") = kOutcomes[s.outcome], py::arg("joins") = s.joins, py::arg("passed") = s.passed,
-      py::arg("failed") = s.failed, py::arg("undecided") = s.open, py::arg("curve_joins") = s.curve_joins,
-      py::arg("unmatched_edges") = s.unmatched_edges, py::arg("collapsed_edges") = s.collapsed_edges,
-      py::arg("gregory_patches") = s.gregory_patches,
+      py::arg("failed") = s.failed, py::arg("undecided") = s.undecided, py::arg("curve_joins") = s.curve_joins,
+      py::arg("curve_passed") = s.curve_passed, py::arg("curve_failed") = s.curve_failed,
+      py::arg("curve_undecided") = s.curve_undecided, py::arg("unmatched_edges") = s.unmatched_edges,
+      py::arg("collapsed_edges") = s.collapsed_edges, py::arg("gregory_patches") = s.gregory_patches,
       py::arg("largest_gap") = bounds(s.largest_gap[0], s.largest_gap[1]),
       py::arg("largest_angle") = bounds(s.largest_angle[0], s.largest_angle[1]));
 }
@@ -107,8 +139,8 @@ SharedReport certify(const Model& model, const py::object& require, std::optiona
                      const std::optional<std::string>& profile, double seconds_per_join, std::optional<double> match,
                      int jobs, const py::object& progress) {
   auto options = sized<patchproof_certify_options>();
-  constexpr std::int32_t classes[] = {PATCHPROOF_C0, PATCHPROOF_C1, PATCHPROOF_G1};
-  options.require = require.is_none() ? PATCHPROOF_ANY : classes[choose(require, {"C0", "C1", "G1"}, "require")];
+  constexpr std::int32_t classes[] = {PATCHPROOF_CLASS_C0, PATCHPROOF_CLASS_C1, PATCHPROOF_CLASS_G1};
+  options.require = require.is_none() ? PATCHPROOF_CLASS_ANY : classes[choose(require, {"C0", "C1", "G1"}, "require")];
   if (gap) options.has_gap = 1, options.gap_tolerance = *gap;
   if (angle) options.has_angle = 1, options.angle_tolerance = *angle;
   if (curvature) options.has_curvature = 1, options.curvature_tolerance = *curvature;
@@ -140,6 +172,8 @@ It is neither true nor false: ask for .outcome ("pass", "fail" or "undecided" of
   forbid_construction(report);
   forbid_pickling(report, "a Report cannot be pickled: keep report.to_json()");
   report.def_property_readonly("joins", &joins_of, "The joins of patches, a tuple of Join.");
+  report.def_property_readonly("curve_joins", &curve_joins_of,
+                               "The joins of curves, end to end, a tuple of CurveJoin.");
   report.def_property_readonly("summary", &summary_record, "A ReportSummary: counts, largest gap, largest angle.");
   report.def_property_readonly(
       "outcome", [](const Report& r) { return kOutcomes[summary_of(r).outcome]; },
@@ -163,8 +197,11 @@ The table that people read, worst joins first.)");
     const auto s = summary_of(r);
     const py::object bounds = member("_values", "Bounds");
     const auto shown = [&](const double(&b)[2]) { return std::string(py::repr(bounds(b[0], b[1]))); };
-    return "<patchproof.Report: " + std::string(kOutcomes[s.outcome]) + ", " + std::to_string(s.joins) +
-           " joins, gap " + shown(s.largest_gap) + ", angle " + shown(s.largest_angle) + " degrees>";
+    std::string out = "<patchproof.Report: " + std::string(kOutcomes[s.outcome]) + ", " + std::to_string(s.joins) +
+                      " joins of patches, gap " + shown(s.largest_gap) + ", angle " + shown(s.largest_angle) +
+                      " degrees";
+    if (s.curve_joins > 0) out += ", " + std::to_string(s.curve_joins) + " of curves";
+    return out + ">";
   });
 
   module.def(

@@ -178,7 +178,7 @@ py::object evaluate_curve(Curve& p, const py::object& t, int derivatives, const 
 }
 
 double curve_error_bound(Curve& p, const py::object& vector) {
-  constexpr std::int32_t vectors[] = {PATCHPROOF_POINT, PATCHPROOF_DU, PATCHPROOF_DUU};
+  constexpr std::int32_t vectors[] = {PATCHPROOF_VECTOR_POINT, PATCHPROOF_VECTOR_DU, PATCHPROOF_VECTOR_DUU};
   const std::int32_t which = vectors[choose(vector, {"point", "dt", "dtt"}, "vector")];
   const patchproof_curve* const curve = p.curve();
   double bound = 0;

@@ -20,6 +20,14 @@ py::array objects(const py::object& parameters) {
   return py::module_::import("numpy").attr("asarray")(parameters, py::arg("dtype") = "object");
 }
 
+// Pairs; a tuple of two means (u, v), as for evaluate.
+py::array object_pairs(const py::object& uv) {
+  if (!py::isinstance<py::tuple>(uv) || py::len(uv) != 2) return objects(uv);
+  const auto numpy = py::module_::import("numpy");
+  return numpy.attr("stack")(numpy.attr("broadcast_arrays")(objects(uv[py::int_(0)]), objects(uv[py::int_(1)])),
+                             py::arg("axis") = -1);
+}
+
 std::vector<std::string> texts_of(const py::array& numbers) {
   const py::object to_text = member("_numbers", "to_text");
   std::vector<std::string> out;
@@ -75,7 +83,7 @@ py::object evaluate_patch(const Patch& p, const py::object& uv, int order, const
   const bool two = py::isinstance<py::tuple>(side) && py::len(side) == 2;
   options.side_u = side_of(two ? py::object(side[py::int_(0)]) : side);
   options.side_v = side_of(two ? py::object(side[py::int_(1)]) : side);
-  const py::array at = objects(uv);
+  const py::array at = object_pairs(uv);
   if (at.ndim() == 0 || at.shape(at.ndim() - 1) != 2)
     throw py::type_error("uv: numbers of shape " + std::string(py::str(at.attr("shape"))) + "; (..., 2) is needed");
   const auto items = static_cast<std::size_t>(at.size() / 2);
@@ -85,7 +93,7 @@ py::object evaluate_patch(const Patch& p, const py::object& uv, int order, const
   const auto lines =
       exact_lines(at, items * keys.size() * 3, options, [&](auto* c, const auto& texts, const auto& o, auto... to) {
         return patchproof_model_patch_evaluate_exact(c, p.model.get(), p.index, texts.data(), texts.size(), &o,
-                                                     PATCHPROOF_RATIONAL, order, to...);
+                                                     PATCHPROOF_SCALAR_RATIONAL, order, to...);
       });
   return values(lines, at.attr("shape")[py::slice(0, at.ndim() - 1, 1)], items, keys);
 }
@@ -101,7 +109,7 @@ py::object evaluate_curve(const Curve& p, const py::object& t, int order, const 
   const auto lines =
       exact_lines(at, items * keys.size() * 3, options, [&](auto* c, const auto& texts, const auto& o, auto... to) {
         return patchproof_model_curve_evaluate_exact(c, p.model.get(), p.index, texts.data(), texts.size(), &o,
-                                                     PATCHPROOF_RATIONAL, order, to...);
+                                                     PATCHPROOF_SCALAR_RATIONAL, order, to...);
       });
   return values(lines, at.attr("shape"), items, keys);
 }
@@ -116,7 +124,7 @@ void bind_exact_evaluation(PatchClass& patch, CurveClass& curve) {
 Exact points and derivatives, of any kind of patch, from the model's own numbers.
 
 uv     numbers of shape (..., 2): ints, Fractions, Decimals, Quadratics, texts ("1/3"), or floats, which count as exactly the
-       numbers that they are (0.1 is not one tenth)
+       numbers that they are (0.1 is not one tenth); a tuple of two is (u, v), as for evaluate
 order  0: points; n up to 20: all derivatives of a total order up to n as well
 side   "right" or "left", or one for u and one for v: which limit counts at a knot
 

@@ -72,7 +72,8 @@ void bind_fill(py::module_& module) {
 Fills the curve mesh in a file (docs/formats.md, "Curve meshes") with one Gregory patch for each face, and proves that they
 join: (Model, FillSummary).
 
-repair    degrees: what misses the conditions of a smooth filling by at most this is first made exact; None: it is an Error
+repair    degrees: what misses the conditions of a smooth filling by at most this is first made exact; None: nothing
+          is moved, an edge whose faces miss one tangent plane counts as sharp (see findings), and the rest is an Error
 decimals  "exact" or "binary64", as those of read
 jobs      threads; 0: one for each processor
 progress  a function of (done, all), as that of certify)");

@@ -183,17 +183,17 @@ Each double counts as exactly the number it is; numbers that are no doubles are 
   model.def_property_readonly(
       "solids", [](Model& m) { return m.info.solids; }, "How many solids (maps of u, v, w) it has.");
   model.def(
-      "to_json", [](Model& m) { return text_of(m, PATCHPROOF_JSON); }, R"(to_json(self)
+      "to_json", [](Model& m) { return text_of(m, PATCHPROOF_FORMAT_JSON); }, R"(to_json(self)
 --
 
 The model as a text in patchproof's JSON, which keeps every number exactly.)");
   model.def(
-      "to_g2", [](Model& m) { return text_of(m, PATCHPROOF_G2); }, R"(to_g2(self)
+      "to_g2", [](Model& m) { return text_of(m, PATCHPROOF_FORMAT_G2); }, R"(to_g2(self)
 --
 
 The model as a text in GoTools' .g2 format; numbers are rounded to doubles.)");
   model.def("__reduce__", [](Model& m) {
-    return py::make_tuple(member("_pickle", "model"), py::make_tuple(text_of(m, PATCHPROOF_JSON)));
+    return py::make_tuple(member("_pickle", "model"), py::make_tuple(text_of(m, PATCHPROOF_FORMAT_JSON)));
   });
   model.def("__copy__", [](const py::object& m) { return m; });
   model.def("__deepcopy__", [](const py::object& m, const py::object&) { return m; });

@@ -13,7 +13,7 @@ const char* kind_of(const Part& part) {
   return kinds[part.info.kind];
 }
 
-bool is_spline(const Part& part) { return part.info.kind == PATCHPROOF_BSPLINE; }
+bool is_spline(const Part& part) { return part.info.kind == PATCHPROOF_KIND_BSPLINE; }
 
 std::string named(const Part& part) {
   const auto name = std::string(to_str(part.info.name));

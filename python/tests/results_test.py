@@ -75,7 +75,7 @@ def test_a_report_of_a_kink():
     assert join.plane_angle.upper >= join.plane_angle.lower > 44
     assert join.gap.lower == join.gap.upper == 0 and repr(join.gap) == "0"
     assert join.angle.at[0] == 1
-    assert repr(join).startswith("<Join 0: patch 0 u_max | patch 1 u_min, C0, gap 0, angle [") and "fail" in repr(join)
+    assert repr(join).startswith("<Join 1: patch 0 u_max | patch 1 u_min, C0, gap 0, angle [") and "fail" in repr(join)
     assert repr(report).startswith("<patchproof.Report: fail, 1 joins, gap 0, angle [")
     summary = report.summary
     assert (summary.joins, summary.failed, summary.passed, summary.undecided, summary.outcome) == (1, 1, 0, 0, "fail")
@@ -187,3 +187,27 @@ def test_profiles_and_curvature():
         patchproof.certify(kinked, profile="none such")
     with pytest.raises(ValueError, match="curvature_tolerance"):
         patchproof.certify(kinked, curvature=-1.0)
+
+
+def test_joins_of_curves():
+    corner = [patchproof.CurveData([[0, 0, 0], [1, 0, 0]]), patchproof.CurveData([[1, 0, 0], [1, 1, 0]])]
+    report = patchproof.certify(patchproof.Model(curves=corner), require="C1")
+    assert report.outcome == "fail" and report.joins == () and "1 of curves" in repr(report)
+    (join,) = report.curve_joins
+    assert (join.id, join.a, join.b, join.point) == (1, (0, "end"), (1, "begin"), (1, 0, 0))
+    assert join.c0.is_proven and join.g1.is_refuted and join.strongest == "C0" and join.gap.upper == 0
+    assert join.angle.lower <= 90 <= join.angle.upper < 90.001 and "curve 0 end | curve 1 begin" in repr(join)
+    assert (report.summary.curve_joins, report.summary.curve_failed) == (1, 1)
+
+
+def test_printed_bounds_are_bounds(cup):
+    for join in patchproof.certify(cup).joins:
+        for bounds in (join.gap, join.angle):
+            shown = repr(bounds).strip("[]").split(", ")
+            assert float(shown[0]) <= bounds.lower and float(shown[-1]) >= bounds.upper
+
+
+def test_filled_models_are_no_g2(examples):
+    model, _ = patchproof.fill(examples / "meshes" / "two_faces.json")
+    with pytest.raises(patchproof.Error, match="Gregory"):
+        model.to_g2()

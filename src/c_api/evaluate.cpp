@@ -26,10 +26,10 @@ struct EvaluateOptions {
 
 EvaluateOptions evaluate_options(const patchproof_evaluate_options* options) {
   const patchproof_evaluate_options o = options_of(options, "options");
-  require_value(o.side_u, PATCHPROOF_LEFT, "options.side_u");
-  require_value(o.side_v, PATCHPROOF_LEFT, "options.side_v");
+  require_value(o.side_u, PATCHPROOF_SIDE_LEFT, "options.side_u");
+  require_value(o.side_v, PATCHPROOF_SIDE_LEFT, "options.side_v");
   if (o.threads < -1 || o.threads > 1024) bad_argument("options.threads", "is −1 to 1024", std::to_string(o.threads));
-  const auto side = [](std::int32_t s) { return s == PATCHPROOF_RIGHT ? Side::right : Side::left; };
+  const auto side = [](std::int32_t s) { return s == PATCHPROOF_SIDE_RIGHT ? Side::right : Side::left; };
   return {side(o.side_u), side(o.side_v), o.threads == -1 ? 0 : std::max(1, o.threads)};
 }
 
@@ -191,7 +191,7 @@ patchproof_status patchproof_surface_error_bound(patchproof_context* context, co
                                                  int32_t vector, double* out) noexcept {
   return call(context, [&] {
     const BatchSurface& s = content_of(surface, "surface");
-    require_value(vector, PATCHPROOF_DVV, "vector");
+    require_value(vector, PATCHPROOF_VECTOR_DVV, "vector");
     require_place(out, "out");
     *out = s.error_bound(kSurfaceVectors[static_cast<std::size_t>(vector)]);
   });
@@ -202,9 +202,9 @@ patchproof_status patchproof_curve_error_bound(patchproof_context* context, cons
   return call(context, [&] {
     const BatchCurve& c = content_of(curve, "curve");
     require_place(out, "out");
-    if (vector != PATCHPROOF_POINT && vector != PATCHPROOF_DU && vector != PATCHPROOF_DUU)
+    if (vector != PATCHPROOF_VECTOR_POINT && vector != PATCHPROOF_VECTOR_DU && vector != PATCHPROOF_VECTOR_DUU)
       bad_argument("vector", "of a curve there are point, du and duu", std::to_string(vector));
-    *out = c.error_bound(vector == PATCHPROOF_POINT ? 0 : vector == PATCHPROOF_DU ? 1 : 2);
+    *out = c.error_bound(vector == PATCHPROOF_VECTOR_POINT ? 0 : vector == PATCHPROOF_VECTOR_DU ? 1 : 2);
   });
 }
 

@@ -21,30 +21,31 @@ std::vector<PlaceText> places_of(const Request& r, std::size_t per_place, const 
     bad_argument(std::string(name) + "_length", fmt::format("{} texts for each item", per_place),
                  std::to_string(r.length));
   const patchproof_evaluate_options o = options_of(r.options, "options");
-  require_value(o.side_u, PATCHPROOF_LEFT, "options.side_u");
-  require_value(o.side_v, PATCHPROOF_LEFT, "options.side_v");
+  require_value(o.side_u, PATCHPROOF_SIDE_LEFT, "options.side_u");
+  require_value(o.side_v, PATCHPROOF_SIDE_LEFT, "options.side_v");
   const std::int32_t sides[2] = {o.side_u, o.side_v};
   std::vector<PlaceText> places(r.length / per_place);
   for (std::size_t i = 0; i < r.length; ++i) {
     PlaceText& place = places[i / per_place];
     place.at.emplace_back(view(r.texts[i], fmt::format("{}[{}]", name, i).c_str()));
-    place.sides.push_back(sides[i % per_place] == PATCHPROOF_RIGHT ? Side::right : Side::left);
+    place.sides.push_back(sides[i % per_place] == PATCHPROOF_SIDE_RIGHT ? Side::right : Side::left);
   }
   return places;
 }
 
 std::string values_of(const ModelFile& file, const ModelPart& part, const Request& r, std::size_t per_place,
                       const char* name) {
-  require_value(r.scalar, PATCHPROOF_INTERVAL, "scalar");
+  require_value(r.scalar, PATCHPROOF_SCALAR_INTERVAL, "scalar");
   require_value(r.order, kMostDerivatives, "order");
   const auto values =
       take(evaluate_model(file, part, places_of(r, per_place, name), r.order,
-                          r.scalar == PATCHPROOF_RATIONAL ? ValueScalar::rational : ValueScalar::interval, 1));
+                          r.scalar == PATCHPROOF_SCALAR_RATIONAL ? ValueScalar::rational : ValueScalar::interval, 1));
   std::string out;
   for (const auto& rows : values)
     for (const DerivativeText& row : rows) {
       for (const std::string& x : row.value) out += x + "\n";
-      for (std::size_t c = row.value.size(); c < 3; ++c) out += r.scalar == PATCHPROOF_RATIONAL ? "0\n" : "[0, 0]\n";
+      for (std::size_t c = row.value.size(); c < 3; ++c)
+        out += r.scalar == PATCHPROOF_SCALAR_RATIONAL ? "0\n" : "[0, 0]\n";
     }
   return out;
 }

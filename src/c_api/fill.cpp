@@ -12,6 +12,8 @@ namespace {
 FillRequest fill_request(const patchproof_fill_options& o) {
   FillRequest out;
   require_value(o.repairs, 1, "options.repairs");
+  if (o.repairs == 0 && o.repair_angle != 0)
+    bad_argument("options.repair_angle", "is set, and does not count: repairs is 0", std::to_string(o.repair_angle));
   if (o.repairs == 1) {
     if (!(o.repair_angle >= 0 && o.repair_angle <= 30))
       bad_argument("options.repair_angle", "is no number of degrees from 0 to 30", std::to_string(o.repair_angle));
@@ -23,9 +25,9 @@ FillRequest fill_request(const patchproof_fill_options& o) {
 }
 
 void write_tally(const VerdictTally& tally, std::size_t (&out)[3]) {
-  out[PATCHPROOF_PROVEN] = static_cast<std::size_t>(tally.proven);
-  out[PATCHPROOF_REFUTED] = static_cast<std::size_t>(tally.refuted);
-  out[PATCHPROOF_UNDECIDED] = static_cast<std::size_t>(tally.undecided);
+  out[PATCHPROOF_VERDICT_PROVEN] = static_cast<std::size_t>(tally.proven);
+  out[PATCHPROOF_VERDICT_REFUTED] = static_cast<std::size_t>(tally.refuted);
+  out[PATCHPROOF_VERDICT_UNDECIDED] = static_cast<std::size_t>(tally.undecided);
 }
 
 patchproof_fill_summary summary_of(const FilledModel& filled, const std::string& findings) {
@@ -55,10 +57,11 @@ patchproof_status patchproof_fill(patchproof_context* context, patchproof_text c
     if (summary != nullptr) known_size(summary->struct_size, sizeof *summary, "summary");
     const patchproof_fill_options o = options_of(options, "options");
     const FillRequest request = fill_request(o);
-    require_value(o.decimals, PATCHPROOF_BINARY64, "options.decimals");
+    require_value(o.decimals, PATCHPROOF_DECIMALS_BINARY64, "options.decimals");
     const std::string path(name.length == 0 ? std::string_view("curve mesh") : view(name, "name"));
-    CurveMeshFile file = take(read_curve_mesh_text(
-        view(curve_mesh, "curve_mesh"), path, o.decimals == PATCHPROOF_EXACT ? Decimals::exact : Decimals::binary64));
+    CurveMeshFile file =
+        take(read_curve_mesh_text(view(curve_mesh, "curve_mesh"), path,
+                                  o.decimals == PATCHPROOF_DECIMALS_EXACT ? Decimals::exact : Decimals::binary64));
     Progress progress;
     std::optional<Result<FilledModel>> filled;
     watch(callback, progress, [&] { filled = fill_model(std::move(file.mesh), request, file.units); });
@@ -70,7 +73,7 @@ patchproof_status patchproof_fill(patchproof_context* context, patchproof_text c
     ModelContent content{{path,
                           "curve mesh, filled",
                           "",
-                          o.decimals == PATCHPROOF_EXACT ? Decimals::exact : Decimals::binary64,
+                          o.decimals == PATCHPROOF_DECIMALS_EXACT ? Decimals::exact : Decimals::binary64,
                           std::move((**filled).model),
                           {}},
                          "",

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "c_api/models.h"
+#include "patchproof/io/cad.h"
 #include "patchproof/io/read.h"
 #include "patchproof/io/write.h"
 
@@ -12,8 +13,8 @@ namespace patchproof::c_api {
 namespace {
 
 Decimals decimals_of(std::int32_t value) {
-  require_value(value, PATCHPROOF_BINARY64, "decimals");
-  return value == PATCHPROOF_EXACT ? Decimals::exact : Decimals::binary64;
+  require_value(value, PATCHPROOF_DECIMALS_BINARY64, "decimals");
+  return value == PATCHPROOF_DECIMALS_EXACT ? Decimals::exact : Decimals::binary64;
 }
 
 // Doubles as texts that hold them exactly.
@@ -111,7 +112,7 @@ S element(const S* array, std::size_t i, const std::string& name) {
 }
 
 const char* edge_name(std::int32_t edge) {
-  require_value(edge, PATCHPROOF_V_MAX, "joins: edge");
+  require_value(edge, PATCHPROOF_EDGE_V_MAX, "joins: edge");
   return to_string(static_cast<EdgeName>(edge));
 }
 
@@ -176,7 +177,11 @@ patchproof_status patchproof_model_read_file(patchproof_context* context, patchp
     require_place(out, "out");
     const std::string_view name = view(path, "path");
     if (name.find('\0') != std::string_view::npos) bad_argument("path", "holds a zero byte");
-    hand_over(context, content_of_file(take(read_model(std::string(name), decimals_of(decimals)))), out);
+    const std::string file(name);
+    if (looks_like_cad(file))
+      bad_data(
+          {ErrorCode::unsupported, file, "the library reads text formats; the program patchproof reads CAD files", ""});
+    hand_over(context, content_of_file(take(read_model(file, decimals_of(decimals)))), out);
   });
 }
 
@@ -205,9 +210,16 @@ patchproof_status patchproof_model_write(patchproof_context* context, const patc
                                          char* buffer, size_t length, size_t* needed) noexcept {
   return call(context, [&] {
     const ModelContent& content = content_of(model, "model");
-    require_value(format, PATCHPROOF_G2, "format");
+    require_value(format, PATCHPROOF_FORMAT_G2, "format");
     const std::string bytes = std::visit(
-        [&](const auto& m) { return format == PATCHPROOF_JSON ? write_model_json(m) : take(write_model_g2(m)).bytes; },
+        [&](const auto& m) {
+          if (format == PATCHPROOF_FORMAT_JSON) return write_model_json(m);
+          if (!m.gregory_patches.empty())
+            bad_data({ErrorCode::unsupported, "format",
+                      "a Gregory patch is no B-spline; the program patchproof converts it to one near it, with bounds",
+                      ".g2"});
+          return take(write_model_g2(m)).bytes;
+        },
         content.file.model);
     write_text(bytes, buffer, length, needed);
   });

@@ -81,7 +81,7 @@ void describe_spline(const Part& part, patchproof_spline_info& out) {
     direction(part.curve.knots(), 0);
     is_exact = is_exact && are_doubles(part.curve.points());
   }
-  out.kind = PATCHPROOF_BSPLINE;
+  out.kind = PATCHPROOF_KIND_BSPLINE;
   out.is_rational = part.is_rational ? 1 : 0;
   out.is_double = is_exact ? 1 : 0;
 }
@@ -104,12 +104,12 @@ patchproof_spline_info info_of_patch(const Model<T>& model, std::size_t patch) {
     out.name = borrowed(p.name);
   } else if (const std::size_t g = patch - model.patches.size(); g < model.gerbs_patches.size()) {
     const ModelGerbsPatch<T>& p = model.gerbs_patches[g];
-    out.kind = PATCHPROOF_GERBS;
+    out.kind = PATCHPROOF_KIND_GERBS;
     describe_domain(p.surface.knots(Direction::u), out.domain);
     describe_domain(p.surface.knots(Direction::v), out.domain + 2);
     out.name = borrowed(p.name);
   } else {
-    out.kind = PATCHPROOF_GREGORY;
+    out.kind = PATCHPROOF_KIND_GREGORY;
     out.domain[1] = out.domain[3] = 1;
     out.name = borrowed(model.gregory_patches[g - model.gerbs_patches.size()].name);
   }
@@ -126,7 +126,7 @@ patchproof_spline_info info_of_curve(const Model<T>& model, std::size_t curve) {
     out.name = borrowed(model.curves[curve].name);
   } else {
     const ModelGerbsCurve<T>& c = model.gerbs_curves[curve - model.curves.size()];
-    out.kind = PATCHPROOF_GERBS;
+    out.kind = PATCHPROOF_KIND_GERBS;
     describe_domain(c.curve.knots(), out.domain);
     out.name = borrowed(c.name);
   }

@@ -11,8 +11,8 @@ namespace {
 constexpr int kMostDegree = 64;  // what readers take
 
 Direction direction_of(std::int32_t value) {
-  require_value(value, PATCHPROOF_V, "direction");
-  return value == PATCHPROOF_U ? Direction::u : Direction::v;
+  require_value(value, PATCHPROOF_DIRECTION_V, "direction");
+  return value == PATCHPROOF_DIRECTION_U ? Direction::u : Direction::v;
 }
 
 // New knots may be anything inside the domain, as long as no knot stands there more often than a reader takes.

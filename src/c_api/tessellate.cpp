@@ -69,13 +69,13 @@ patchproof_status patchproof_tessellate(patchproof_context* context, const patch
     require_place(options, "options");
     const ModelFile& file = content_of(model, "model").file;
     const patchproof_tessellate_options o = options_of(options, "options");
-    require_value(o.method, PATCHPROOF_REGULAR, "options.method");
+    require_value(o.method, PATCHPROOF_METHOD_REGULAR, "options.method");
     const MeshRequest request = mesh_request(o);
     Progress progress;
     std::optional<ModelMesh> made;
     watch(callback, progress, [&] {
-      made = take(tessellate_model(file, request,
-                                   o.method == PATCHPROOF_ADAPTIVE ? CellMethod::adaptive : CellMethod::regular));
+      made = take(tessellate_model(
+          file, request, o.method == PATCHPROOF_METHOD_ADAPTIVE ? CellMethod::adaptive : CellMethod::regular));
     });
     hand_over(context, content_of_mesh(std::move(*made)), out);
   });
@@ -124,7 +124,7 @@ patchproof_status patchproof_mesh_write(patchproof_context* context, const patch
                                         char* buffer, size_t length, size_t* needed) noexcept {
   return call(context, [&] {
     const CertifiedMesh& m = content_of(mesh, "mesh").mesh;
-    require_value(format, PATCHPROOF_VTU, "format");
+    require_value(format, PATCHPROOF_MESH_VTU, "format");
     write_text(take(write_mesh(m, "patchproof", kFormats[format])), buffer, length, needed);
   });
 }

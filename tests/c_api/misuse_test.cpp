@@ -139,8 +139,11 @@ TEST_F(CApiMisuse, Options) {
     bad_argument(patchproof_certify(c(), m(), &o, nullptr, &report), where);
   };
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  certify([](auto& o) { o.require = PATCHPROOF_C2; }, "require");
+  certify([](auto& o) { o.require = PATCHPROOF_CLASS_C2; }, "require");
   certify([](auto& o) { o.has_gap = 2; }, "has_gap");
+  certify([](auto& o) { o.gap_tolerance = 1; }, "gap_tolerance");  // which would not count
+  certify([](auto& o) { o.angle_tolerance = 1; }, "angle_tolerance");
+  certify([](auto& o) { o.curvature_tolerance = 1; }, "curvature_tolerance");
   certify([&](auto& o) { o.has_gap = 1, o.gap_tolerance = nan; }, "gap_tolerance");
   certify([&](auto& o) { o.has_gap = 1, o.gap_tolerance = -1; }, "gap_tolerance");
   certify([&](auto& o) { o.has_angle = 1, o.angle_tolerance = 181; }, "angle_tolerance");

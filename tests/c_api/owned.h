@@ -55,7 +55,7 @@ inline std::string bytes_of(const std::string& path) {
 
 inline Owned<patchproof_model> read_example(const Owned<patchproof_context>& context, const std::string& name) {
   return owned<patchproof_model>(context, [&](patchproof_model** out) {
-    return patchproof_model_read_file(context.get(), text_of(example(name)), PATCHPROOF_EXACT, out);
+    return patchproof_model_read_file(context.get(), text_of(example(name)), PATCHPROOF_DECIMALS_EXACT, out);
   });
 }
 

@@ -18,12 +18,12 @@ class CApiValues : public testing::Test {
   patchproof_context* c() const { return context_.get(); }
   std::string json_of(const Owned<patchproof_model>& model) const {
     return written([&](char* b, std::size_t n, std::size_t* needed) {
-      return patchproof_model_write(c(), model.get(), PATCHPROOF_JSON, b, n, needed);
+      return patchproof_model_write(c(), model.get(), PATCHPROOF_FORMAT_JSON, b, n, needed);
     });
   }
   Owned<patchproof_model> from_text(const std::string& text) const {
     return owned<patchproof_model>(context_, [&](auto out) {
-      return patchproof_model_read_text(c(), text_of(text), patchproof_from("m.json"), PATCHPROOF_EXACT, out);
+      return patchproof_model_read_text(c(), text_of(text), patchproof_from("m.json"), PATCHPROOF_DECIMALS_EXACT, out);
     });
   }
   patchproof_status create(const patchproof_model_data& data) const {
@@ -103,14 +103,14 @@ TEST_F(CApiValues, ArraysThatCannotBeUsed) {
   squares.patches[0].name = {"\xff", 1};
   EXPECT_EQ(create(squares.data), PATCHPROOF_BAD_DATA);
   squares.patches[0].name = {};
-  patchproof_declared_join join{0, PATCHPROOF_U_MAX, 2, PATCHPROOF_U_MIN, 0};
+  patchproof_declared_join join{0, PATCHPROOF_EDGE_U_MAX, 2, PATCHPROOF_EDGE_U_MIN, 0};
   squares.data.joins = &join;
   squares.data.joins_length = 1;
   EXPECT_EQ(create(squares.data), PATCHPROOF_BAD_DATA);
   join.patch_b = 1;
   join.edge_b = 4;
   EXPECT_EQ(create(squares.data), PATCHPROOF_BAD_ARGUMENT);
-  join.edge_b = PATCHPROOF_U_MIN;
+  join.edge_b = PATCHPROOF_EDGE_U_MIN;
   EXPECT_EQ(create(squares.data), PATCHPROOF_OK) << error();
   const std::vector<double> zeros(16, 0.0);
   squares.patches[0].weights = zeros.data();
@@ -159,7 +159,7 @@ TEST_F(CApiValues, BatchesAreThoseOfTheLibrary) {
         {VectorArray::records(expected.data(), 6), {}, {}, {}, {}, VectorArray::records(expected.data() + 3, 6), {}},
         sides));
     patchproof_evaluate_options options = sized<patchproof_evaluate_options>();
-    options.side_u = options.side_v = side == Side::right ? PATCHPROOF_RIGHT : PATCHPROOF_LEFT;
+    options.side_u = options.side_v = side == Side::right ? PATCHPROOF_SIDE_RIGHT : PATCHPROOF_SIDE_LEFT;
     options.threads = side == Side::right ? 2 : 0;
     patchproof_derivatives out = sized<patchproof_derivatives>();
     out.point = {got.data(), got.data() + 1, got.data() + 2, kCount, 6};
@@ -220,7 +220,7 @@ TEST_F(CApiValues, CurvesAndGrids) {
   out.point = {p, p + 1, p + 2, 1, 3};
   out.du = {d, d + 1, d + 2, 1, 3};
   ASSERT_EQ(patchproof_curve_evaluate(c(), curve.get(), {&middle, nullptr, 1, 1}, nullptr, &out), PATCHPROOF_OK);
-  ASSERT_EQ(patchproof_curve_error_bound(c(), curve.get(), PATCHPROOF_POINT, &bound), PATCHPROOF_OK);
+  ASSERT_EQ(patchproof_curve_error_bound(c(), curve.get(), PATCHPROOF_VECTOR_POINT, &bound), PATCHPROOF_OK);
   EXPECT_LT(bound, 1e-9);
   out.normal = out.point;
   EXPECT_EQ(patchproof_curve_evaluate(c(), curve.get(), {&middle, nullptr, 1, 1}, nullptr, &out),
@@ -254,9 +254,10 @@ TEST_F(CApiValues, ExactValuesAreThoseOfTheLibrary) {
       at.push_back(to_text(Rational((*parse_scalar<Rational>(begin) + *parse_scalar<Rational>(end)) / 3)));
     std::vector<patchproof_text> texts;
     for (const std::string& t : at) texts.push_back(text_of(t));
-    for (const std::int32_t scalar : {PATCHPROOF_RATIONAL, PATCHPROOF_INTERVAL}) {
-      const auto rows = evaluate_model(file, {kind, 0}, PlaceText{at, {}}, 1,
-                                       scalar == PATCHPROOF_RATIONAL ? ValueScalar::rational : ValueScalar::interval);
+    for (const std::int32_t scalar : {PATCHPROOF_SCALAR_RATIONAL, PATCHPROOF_SCALAR_INTERVAL}) {
+      const auto rows =
+          evaluate_model(file, {kind, 0}, PlaceText{at, {}}, 1,
+                         scalar == PATCHPROOF_SCALAR_RATIONAL ? ValueScalar::rational : ValueScalar::interval);
       const auto call = [&](char* b, std::size_t n, std::size_t* needed) {
         return (kind == PartKind::patch ? patchproof_model_patch_evaluate_exact
                                         : patchproof_model_curve_evaluate_exact)(
@@ -270,7 +271,7 @@ TEST_F(CApiValues, ExactValuesAreThoseOfTheLibrary) {
       std::string expected;
       for (const DerivativeText& row : *rows) {
         for (const std::string& x : row.value) expected += x + "\n";
-        if (row.value.size() == 2) expected += scalar == PATCHPROOF_RATIONAL ? "0\n" : "[0, 0]\n";
+        if (row.value.size() == 2) expected += scalar == PATCHPROOF_SCALAR_RATIONAL ? "0\n" : "[0, 0]\n";
       }
       EXPECT_EQ(written(call), expected);
     }
@@ -289,10 +290,11 @@ TEST_F(CApiValues, Refinement) {
   const std::string expected = point(model);
   const patchproof_text knots[] = {patchproof_from("1/3"), patchproof_from("1/3"), patchproof_from("0.25")};
   const auto finer = owned<patchproof_model>(context_, [&](auto out) {
-    return patchproof_model_patch_insert_knots(c(), model.get(), 0, PATCHPROOF_V, knots, 3, out);
+    return patchproof_model_patch_insert_knots(c(), model.get(), 0, PATCHPROOF_DIRECTION_V, knots, 3, out);
   });
-  const auto higher = owned<patchproof_model>(
-      context_, [&](auto out) { return patchproof_model_patch_elevate(c(), finer.get(), 0, PATCHPROOF_U, 3, out); });
+  const auto higher = owned<patchproof_model>(context_, [&](auto out) {
+    return patchproof_model_patch_elevate(c(), finer.get(), 0, PATCHPROOF_DIRECTION_U, 3, out);
+  });
   EXPECT_EQ(point(finer), expected);
   EXPECT_EQ(point(higher), expected);
   const auto pieces = owned<patchproof_model>(
@@ -308,7 +310,7 @@ TEST_F(CApiValues, Refinement) {
   patchproof_model* none = nullptr;
   const auto insert = [&](const char* knot) {
     const patchproof_text one[] = {patchproof_from("1/2"), patchproof_from(knot)};
-    return patchproof_model_patch_insert_knots(c(), model.get(), 0, PATCHPROOF_U, one, 2, &none);
+    return patchproof_model_patch_insert_knots(c(), model.get(), 0, PATCHPROOF_DIRECTION_U, one, 2, &none);
   };
   for (const char* bad : {"1", "0", "7/5", "1/0", "abc", ""}) {
     EXPECT_EQ(insert(bad), PATCHPROOF_BAD_DATA) << bad;

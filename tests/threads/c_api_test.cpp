@@ -56,9 +56,9 @@ struct Shared {
     const auto ok = [&](patchproof_status status) {
       EXPECT_EQ(status, PATCHPROOF_OK) << patchproof_error_text(context);
     };
-    ok(patchproof_model_read_file(context, patchproof_from(kModelFile), PATCHPROOF_EXACT, &model));
+    ok(patchproof_model_read_file(context, patchproof_from(kModelFile), PATCHPROOF_DECIMALS_EXACT, &model));
     ok(patchproof_model_read_file(context, patchproof_from(PATCHPROOF_SOURCE_DIR "/examples/toolbox/test10.json"),
-                                  PATCHPROOF_EXACT, &curves));
+                                  PATCHPROOF_DECIMALS_EXACT, &curves));
     ok(patchproof_surface_of(context, model, 0, &surface));
     ok(patchproof_curve_of(context, curves, 0, &curve));
     auto certify = sized<patchproof_certify_options>();
@@ -84,7 +84,7 @@ struct Shared {
 
 std::string written(patchproof_context* context, const patchproof_model* model) {
   return text_of([&](char* buffer, std::size_t length, std::size_t* needed) {
-    return patchproof_model_write(context, model, PATCHPROOF_JSON, buffer, length, needed);
+    return patchproof_model_write(context, model, PATCHPROOF_FORMAT_JSON, buffer, length, needed);
   });
 }
 
@@ -136,7 +136,7 @@ std::string values_of(const patchproof_surface* surface, const patchproof_curve*
   out.add(point), out.add(du), out.add(normal), out.add(lower), out.add(upper), out.add(rounded);
   out.add(patchproof_surface_evaluate_bounded(context, surface, at, nullptr, into(point), bound.data(), bound.size()));
   double most = 0;
-  out.add(patchproof_surface_error_bound(context, surface, PATCHPROOF_DUV, &most));
+  out.add(patchproof_surface_error_bound(context, surface, PATCHPROOF_VECTOR_DUV, &most));
   out.add(point), out.add(bound), out.add(most);
   const std::vector<double> lines{0, 0.25, 0.5, 1};
   std::vector<double> grid(48);
@@ -163,7 +163,7 @@ std::string said_of_report(const patchproof_report* report) {
     auto witness = sized<patchproof_witness>();
     out.add(patchproof_report_get_join(context, report, i, &join));
     out.add(said_of(join.a.edge)), out.add(join.c1.verdict), out.add(said_of(join.g1.reason)), out.add(join.gap.upper);
-    out.add(patchproof_report_get_witness(context, report, i, PATCHPROOF_C2, &witness));
+    out.add(patchproof_report_get_witness(context, report, i, PATCHPROOF_CLASS_C2, &witness));
     out.add(said_of(witness.quantity)), out.add(said_of(witness.values));
   }
   for (const int format : {PATCHPROOF_REPORT_JSON, PATCHPROOF_REPORT_TABLE})
@@ -183,7 +183,8 @@ std::string said_of_mesh(const patchproof_mesh* mesh) {
   out.add(patchproof_mesh_get_data(context, mesh, vertices.data(), vertices.size(), triangles.data(), triangles.size(),
                                    patches.data(), patches.size()));
   out.add(vertices), out.add(triangles), out.add(patches), out.add(info.chord), out.add(said_of(info.notes));
-  for (const int format : {PATCHPROOF_STL, PATCHPROOF_OBJ, PATCHPROOF_PLY, PATCHPROOF_GLB, PATCHPROOF_VTU})
+  for (const int format :
+       {PATCHPROOF_MESH_STL, PATCHPROOF_MESH_OBJ, PATCHPROOF_MESH_PLY, PATCHPROOF_MESH_GLB, PATCHPROOF_MESH_VTU})
     out.add(text_of([&](char* buffer, std::size_t length, std::size_t* needed) {
       return patchproof_mesh_write(context, mesh, format, buffer, length, needed);
     }));
@@ -208,24 +209,24 @@ TEST(ThreadsCApi, HandlesAreUsedByAll) {
   all.add("infos", [&] { return info_of(shared.model); });
   all.add("read", [&] {
     return made([&](patchproof_context* context, patchproof_model** out) {
-      return patchproof_model_read_text(context, text(model_bytes), patchproof_from("m.json"), PATCHPROOF_BINARY64,
-                                        out);
+      return patchproof_model_read_text(context, text(model_bytes), patchproof_from("m.json"),
+                                        PATCHPROOF_DECIMALS_BINARY64, out);
     });
   });
   all.add("not read", [&] {
     return made([&](patchproof_context* context, patchproof_model** out) {
-      return patchproof_model_read_text(context, patchproof_from("[]"), patchproof_from("m.json"), PATCHPROOF_EXACT,
-                                        out);
+      return patchproof_model_read_text(context, patchproof_from("[]"), patchproof_from("m.json"),
+                                        PATCHPROOF_DECIMALS_EXACT, out);
     });
   });
   all.add("insertion", [&] {
     return made([&](patchproof_context* context, patchproof_model** out) {
-      return patchproof_model_patch_insert_knots(context, shared.model, 0, PATCHPROOF_U, knots, 2, out);
+      return patchproof_model_patch_insert_knots(context, shared.model, 0, PATCHPROOF_DIRECTION_U, knots, 2, out);
     });
   });
   all.add("elevation", [&] {
     return made([&](patchproof_context* context, patchproof_model** out) {
-      return patchproof_model_patch_elevate(context, shared.model, 0, PATCHPROOF_V, 1, out);
+      return patchproof_model_patch_elevate(context, shared.model, 0, PATCHPROOF_DIRECTION_V, 1, out);
     });
   });
   all.add("extraction", [&] {
@@ -242,7 +243,7 @@ TEST(ThreadsCApi, HandlesAreUsedByAll) {
     patchproof_surface_free(surface);
     return out;
   });
-  for (const int scalar : {PATCHPROOF_RATIONAL, PATCHPROOF_INTERVAL})
+  for (const int scalar : {PATCHPROOF_SCALAR_RATIONAL, PATCHPROOF_SCALAR_INTERVAL})
     all.add("exact values", [&, scalar] {
       const Context context;
       return text_of([&](char* buffer, std::size_t length, std::size_t* needed) {
@@ -304,7 +305,7 @@ TEST(ThreadsCApi, OneContextServesOneCallAtATime) {
       const bool even = (i + k) % 2 == 0;
       const patchproof_status status =
           even ? patchproof_model_get_info(context, shared.model, &info)
-               : patchproof_model_write(context, shared.model, PATCHPROOF_JSON, nullptr, 0, &needed);
+               : patchproof_model_write(context, shared.model, PATCHPROOF_FORMAT_JSON, nullptr, 0, &needed);
       if (status == PATCHPROOF_CONTEXT_BUSY) {
         ++counts[k][1];
         if (info.patches != 0 || needed != 0) good = false;  // outputs are as they were
@@ -347,7 +348,7 @@ TEST(ThreadsCApi, AHandleIsFreedOnce) {
   const Context context(PATCHPROOF_KEEP_FREED_HANDLES);
   for (int round = 0; round < 20; ++round) {
     patchproof_model* model = nullptr;
-    ASSERT_EQ(patchproof_model_read_file(context, patchproof_from(kModelFile), PATCHPROOF_EXACT, &model),
+    ASSERT_EQ(patchproof_model_read_file(context, patchproof_from(kModelFile), PATCHPROOF_DECIMALS_EXACT, &model),
               PATCHPROOF_OK);
     std::atomic<int> freed{0}, late{0};
     in_threads([&](std::size_t) {

@@ -16,11 +16,11 @@ from ._errors import Error, InternalError
 from ._numbers import Quadratic
 from ._patchproof import (Curve, Mesh, Model, Patch, Report, __version__, certify, fill, fill_text, read, read_text,
                           tessellate)
-from ._values import (Bounds, CurveDerivatives, Derivatives, FillSummary, Join, JoinSide, Proofs, ReportSummary, Verdict,
-                      Witness)
+from ._values import (Bounds, CurveDerivatives, CurveJoin, Derivatives, FillSummary, Join, JoinSide, Proofs, ReportSummary,
+                      Verdict, Witness)
 
 __all__ = [
-    "Bounds", "Curve", "CurveData", "CurveDerivatives", "DeclaredJoin", "Derivatives", "Error", "FillSummary",
+    "Bounds", "Curve", "CurveData", "CurveDerivatives", "CurveJoin", "DeclaredJoin", "Derivatives", "Error", "FillSummary",
     "InternalError", "Join", "JoinSide", "Mesh", "Model", "Patch", "PatchData", "Proofs", "Quadratic", "Report",
     "ReportSummary", "Verdict", "Witness", "certify", "fill", "fill_text", "read", "read_text", "tessellate",
 ]

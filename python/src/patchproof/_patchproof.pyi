@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._construct import CurveData, DeclaredJoin, PatchData
-from ._values import CurveDerivatives, Derivatives, FillSummary, Join, ReportSummary
+from ._values import CurveDerivatives, CurveJoin, Derivatives, FillSummary, Join, ReportSummary
 
 __version__: Final[str]
 
@@ -158,6 +158,8 @@ class Curve:
 class Report:
     @property
     def joins(self) -> tuple[Join, ...]: ...
+    @property
+    def curve_joins(self) -> tuple[CurveJoin, ...]: ...
     @property
     def summary(self) -> ReportSummary: ...
     @property

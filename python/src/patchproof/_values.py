@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import decimal
 import math
 from typing import NamedTuple, NoReturn, Optional, Union
 
@@ -38,8 +39,13 @@ class CurveDerivatives(NamedTuple):
     dtt: Optional[Floats] = None
 
 
-def _number(x: float) -> str:
-    return "unknown" if math.isinf(x) else f"{x:.5g}"
+def _number(x: float, rounding: str) -> str:
+    """Five digits, rounded down or up: what is printed is proved as well."""
+    if math.isinf(x):
+        return "unknown"
+    with decimal.localcontext() as context:
+        context.prec, context.rounding = 5, rounding
+        return f"{float(+decimal.Decimal(x)):.5g}"
 
 
 @dataclasses.dataclass(frozen=True, repr=False)
@@ -56,7 +62,8 @@ class Bounds:
     converged: Optional[bool] = None
 
     def __repr__(self) -> str:
-        return "0" if self.lower == self.upper == 0 else f"[{_number(self.lower)}, {_number(self.upper)}]"
+        return "0" if self.lower == self.upper == 0 else (
+            f"[{_number(self.lower, decimal.ROUND_FLOOR)}, {_number(self.upper, decimal.ROUND_CEILING)}]")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -106,7 +113,7 @@ class JoinSide(NamedTuple):
 class Join:
     """What is proved of one join. Lengths are in the model's units, angles in degrees.
 
-    number       its place in report.joins
+    id           its number in the table and in the JSON, from 1
     a, b         the two sides; reversed: their parameters run against each other
     c0 … g1      verdicts on the classes, over the whole join
     ratio        the exact λ > 0 with y_s = −λ·x_s of the derivatives across it, None where there is none
@@ -116,7 +123,7 @@ class Join:
     outcome      "pass", "fail" or "undecided", of what certify was asked; `reason` says why
     """
 
-    number: int
+    id: int
     a: JoinSide
     b: JoinSide
     reversed: bool
@@ -140,13 +147,49 @@ class Join:
 
     def __repr__(self) -> str:
         sides = " | ".join(f"patch {side.patch} {side.edge}" for side in (self.a, self.b))
-        return (f"<Join {self.number}: {sides}, {self.strongest or 'no class proven'}, gap {self.gap!r}, "
+        return (f"<Join {self.id}: {sides}, {self.strongest or 'no class proven'}, gap {self.gap!r}, "
+                f"angle {self.angle!r} degrees, {self.outcome}>")
+
+
+@dataclasses.dataclass(frozen=True, repr=False)
+class CurveJoin:
+    """Two ends of curves that meet. a, b: (number of the curve, "begin" or "end"); point: where, on the first.
+
+    gap is the distance, angle the one between the directions of travel (degrees), curvature the difference of the curvature
+    vectors (1/length): each is one exact number, enclosed; "unknown" where there is none. The report's JSON has more.
+    """
+
+    id: int
+    a: tuple[int, str]
+    b: tuple[int, str]
+    point: tuple[float, float, float]
+    c0: Verdict
+    c1: Verdict
+    c2: Verdict
+    g1: Verdict
+    g2: Verdict
+    gap: Bounds
+    angle: Bounds
+    curvature: Bounds
+    outcome: str
+    reason: str
+
+    @property
+    def strongest(self) -> str:
+        """The strongest class that is proven: "C2", "G2", "C1", "G1", "C0", or "" where none is."""
+        classes = (("C2", self.c2), ("G2", self.g2), ("C1", self.c1), ("G1", self.g1), ("C0", self.c0))
+        return next((name for name, verdict in classes if verdict.is_proven), "")
+
+    def __repr__(self) -> str:
+        ends = " | ".join(f"curve {curve} {end}" for curve, end in (self.a, self.b))
+        return (f"<CurveJoin {self.id}: {ends}, {self.strongest or 'no class proven'}, gap {self.gap!r}, "
                 f"angle {self.angle!r} degrees, {self.outcome}>")
 
 
 @dataclasses.dataclass(frozen=True)
 class ReportSummary:
-    """A report in numbers: joins of patches, how they stand, and the largest gap and angle (degrees) over all of them."""
+    """A report in numbers: joins of patches, how they stand, and the largest gap and angle (degrees) over all of them; joins of
+    curves, and how they stand. unmatched_edges have no partner near enough: they are no joins, and no gap counts them."""
 
     outcome: str
     joins: int
@@ -154,6 +197,9 @@ class ReportSummary:
     failed: int
     undecided: int
     curve_joins: int
+    curve_passed: int
+    curve_failed: int
+    curve_undecided: int
     unmatched_edges: int
     collapsed_edges: int
     gregory_patches: int

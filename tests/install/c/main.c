@@ -53,7 +53,8 @@ int main(void) {
   if (patchproof_report_get_join(context, report, 0, &join) != PATCHPROOF_OK) return failed("join", context);
   printf("patchproof %s: C0 %d, G1 %d, angle in [%.3f, %.3f]\n", patchproof_version(), (int)join.c0.verdict,
          (int)join.g1.verdict, join.angle.lower, join.angle.upper);
-  if (join.c0.verdict != PATCHPROOF_PROVEN || join.g1.verdict != PATCHPROOF_REFUTED) return failed("verdict", context);
+  if (join.c0.verdict != PATCHPROOF_VERDICT_PROVEN || join.g1.verdict != PATCHPROOF_VERDICT_REFUTED)
+    return failed("verdict", context);
   if (!(join.angle.lower > 89 && join.angle.lower <= 90 && join.angle.upper >= 90 && join.angle.upper < 91))
     return failed("angle", context);
 
@@ -70,7 +71,7 @@ int main(void) {
     return failed("evaluate", context);
   if (point[0] != 0.25 || point[1] != 0.5 || point[2] != 0) return failed("point", context);
 
-  if (patchproof_model_read_text(context, patchproof_from("no model"), patchproof_from("it"), PATCHPROOF_EXACT,
+  if (patchproof_model_read_text(context, patchproof_from("no model"), patchproof_from("it"), PATCHPROOF_DECIMALS_EXACT,
                                  &none) != PATCHPROOF_BAD_DATA ||
       none != NULL)
     return failed("a text that is no model", context);
