@@ -40,3 +40,11 @@ foreach(name patchproof patchproof-static patchproof-cxx)
   configure_file(cmake/${name}.pc.in ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${pkgconfig_dir} COMPONENT dev)
 endforeach()
+
+# What the headers point to, and programs to begin with.
+set(documents share/doc/libpatchproof-dev)
+install(FILES docs/library.md docs/formats.md docs/model.schema.json docs/mathematics.md docs/errata.md docs/licences.md
+  DESTINATION ${documents} COMPONENT dev)
+file(GLOB c_examples CONFIGURE_DEPENDS examples/c/*.c)
+install(FILES ${c_examples} DESTINATION ${documents}/examples COMPONENT dev)
+install(FILES examples/cup.json examples/meshes/football.json DESTINATION ${documents}/examples COMPONENT dev)
