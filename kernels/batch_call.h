@@ -2,14 +2,12 @@
 // What all batch calls share: threads, and errors that name the first bad parameter.
 #pragma once
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "kernels/kernel_table.h"
+#include "patchproof/parallel.h"
 
 namespace patchproof::batch {
 
@@ -53,12 +51,9 @@ Result<BatchSummary> run(std::size_t count, std::size_t share, int threads, cons
     all = part(0, count);
     if (all.stop != kernels::Stop::none) first_bad = all.good;
   } else {
-    std::vector<kernels::Progress> shares((count + share - 1) / share);
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
-    arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, shares.size(),
-                        [&](std::size_t s) { shares[s] = part(s * share, std::min(share, count - s * share)); });
-    });
+    std::vector<kernels::Progress> shares(count / share + (count % share != 0 ? 1 : 0));
+    for_each_item(threads, shares.size(),
+                  [&](std::size_t s) { shares[s] = part(s * share, std::min(share, count - s * share)); });
     for (std::size_t s = 0; s < shares.size() && all.stop == kernels::Stop::none; ++s) {
       all.undefined_normals += shares[s].undefined_normals;
       all.stop = shares[s].stop;

@@ -65,7 +65,7 @@ enum {
   PATCHPROOF_CONTEXT_BUSY = 5,     /**< another call, perhaps the one whose callback this is, uses the context */
   PATCHPROOF_STOPPED = 6,          /**< the callback asked for it */
   PATCHPROOF_CALLBACK_THREW = 7,   /**< a C++ exception came out of the callback */
-  PATCHPROOF_OUT_OF_MEMORY = 8,    /**< docs/library.md names the two libraries that end the process instead */
+  PATCHPROOF_OUT_OF_MEMORY = 8,    /**< docs/library.md names what cannot be promised */
   PATCHPROOF_INTERNAL_ERROR = 9 /**< our fault: please report it */
 };
 
@@ -112,7 +112,8 @@ PATCHPROOF_API patchproof_status patchproof_last_error(
 PATCHPROOF_API const char* patchproof_error_text(const patchproof_context* context) PATCHPROOF_NOEXCEPT;
 
 /** Called on the thread that made the call, some twenty times a second, and at last with done = all when that is reached.
- *  `all` is 0 while it is not known. Anything but 0 stops the work. The callback must not use the call's context. */
+ *  `all` is 0 while it is not known. Anything but 0 stops the work. The callback must not use the call's context,
+ *  and has to return (no longjmp, no end of the thread). It runs with the default rounding mode. */
 typedef struct {
   void* user;
   int32_t (*progress)(void* user, uint64_t done, uint64_t all);
@@ -284,7 +285,8 @@ typedef struct {
   int32_t threads;        /**< 0 and 1: the caller's; −1: one for each processor */
 } patchproof_evaluate_options;
 
-/** Of curves: point, du, duu. normal: (S_u × S_v) / |S_u × S_v|, and 0 0 0 where there is none. */
+/** Of curves: point, du, duu. normal: (S_u × S_v) / |S_u × S_v|, and 0 0 0 where the computed product is 0
+ *  or far below its size elsewhere (where the exact one is 0, rounding errors may still have a direction). */
 typedef struct {
   size_t struct_size;
   patchproof_vectors point, du, dv, normal, duu, duv, dvv;

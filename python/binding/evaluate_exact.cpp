@@ -31,7 +31,7 @@ py::array object_pairs(const py::object& uv) {
 std::vector<std::string> texts_of(const py::array& numbers) {
   const py::object to_text = member("_numbers", "to_text");
   std::vector<std::string> out;
-  for (const auto& number : numbers.attr("ravel")()) out.push_back(to_text(number).cast<std::string>());
+  for (const auto& number : numbers.attr("ravel")()) out.push_back(utf8(to_text(number)));
   return out;
 }
 

@@ -18,7 +18,7 @@ py::tuple fill_text(const py::object& text, const std::string& name, std::option
                     const py::object& decimals, int jobs, const py::object& progress) {
   if (!py::isinstance<py::str>(text) && !py::isinstance<py::bytes>(text))
     throw py::type_error("text: str or bytes are needed, not " + std::string(py::str(py::type::of(text))));
-  const auto bytes = text.cast<std::string>();
+  const auto bytes = utf8(text);
   auto options = sized<patchproof_fill_options>();
   options.decimals = decimals_of(decimals);
   if (repair) options.repairs = 1, options.repair_angle = *repair;

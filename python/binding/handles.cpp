@@ -63,6 +63,26 @@ int choose(const py::object& word, std::initializer_list<const char*> words, con
   throw py::value_error(std::string(name) + ": one of " + all + " is needed, not " + std::string(py::repr(word)));
 }
 
+namespace {
+
+bool is_finalizing() {
+#if PY_VERSION_HEX >= 0x030D0000
+  return Py_IsFinalizing() != 0;
+#else
+  return _Py_IsFinalizing() != 0;
+#endif
+}
+
+}  // namespace
+
+std::string utf8(const py::object& text) {
+  if (!py::isinstance<py::str>(text)) return text.cast<std::string>();
+  Py_ssize_t length = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &length);
+  if (bytes == nullptr) throw py::error_already_set();
+  return {bytes, static_cast<std::size_t>(length)};
+}
+
 Progress::Progress(py::object function) : function_(std::move(function)) {
   if (!function_.is_none() && PyCallable_Check(function_.ptr()) == 0)
     throw py::type_error("progress: a function of (done, all) is needed, not " + std::string(py::repr(function_)));
@@ -73,7 +93,7 @@ Progress::Progress(py::object function) : function_(std::move(function)) {
 }
 
 std::int32_t Progress::report(std::uint64_t done, std::uint64_t all) noexcept {
-  if (raised_) return 1;
+  if (raised_ || is_finalizing()) return 1;  // the lock is nobody's any more
   const py::gil_scoped_acquire acquire;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();

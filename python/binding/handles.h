@@ -44,15 +44,21 @@ void call(const F& f) {
   raise_unless_ok(context.get(), f(context.get()));
 }
 
+// f() without the interpreter's lock. Not by py::gil_scoped_release: a thread that still works when the interpreter ends is
+// unwound where it asks for the lock again, and that must not be in a destructor.
+template <class F>
+patchproof_status released(const F& f) {
+  PyThreadState* const state = PyEval_SaveThread();
+  const patchproof_status status = f();
+  PyEval_RestoreThread(state);
+  return status;
+}
+
 // f(context): a call during which other Python threads run. f must not touch Python.
 template <class F>
 void call_released(const F& f) {
   const Context context = make_context();
-  patchproof_status status;
-  {
-    const py::gil_scoped_release release;
-    status = f(context.get());
-  }
+  const patchproof_status status = released([&]() noexcept { return f(context.get()); });
   raise_unless_ok(context.get(), status);
 }
 
@@ -63,6 +69,9 @@ S sized() {
   out.struct_size = sizeof(S);
   return out;
 }
+
+// The UTF-8 of a str, or the bytes; what is no UTF-8 (lone surrogates) is a UnicodeEncodeError.
+std::string utf8(const py::object& text);
 
 inline patchproof_text view(const std::string& text) { return {text.data(), text.size()}; }
 py::str to_str(patchproof_text text);  // paths in errors may be no UTF-8: as os.fsdecode
@@ -101,11 +110,7 @@ class Progress {
   template <class F>
   void call(const F& f) {
     const Context context = make_context();
-    patchproof_status status;
-    {
-      const py::gil_scoped_release release;
-      status = f(context.get());
-    }
+    const patchproof_status status = released([&]() noexcept { return f(context.get()); });
     if (raised_) std::rethrow_exception(raised_);
     raise_unless_ok(context.get(), status);
   }

@@ -89,7 +89,7 @@ std::string bytes_of(const py::object& text, const char* name) {
   if (!py::isinstance<py::str>(text) && !py::isinstance<py::bytes>(text))
     throw py::type_error(std::string(name) + ": str or bytes are needed, not " +
                          std::string(py::str(py::type::of(text))));
-  return text.cast<std::string>();
+  return utf8(text);
 }
 
 std::shared_ptr<Model> read(const py::object& path, const py::object& decimals) {

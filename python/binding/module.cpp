@@ -21,4 +21,10 @@ PYBIND11_MODULE(_patchproof, module) {
   bind_certify(module);
   bind_fill(module);
   bind_tessellate(module);
+  // Nobody may give an object another of these classes, whose handle it has not.
+  for (const char* name : {"Model", "Patch", "Curve", "Report", "Mesh"}) {
+    auto* const type = reinterpret_cast<PyTypeObject*>(module.attr(name).ptr());
+    type->tp_flags |= Py_TPFLAGS_IMMUTABLETYPE;
+    PyType_Modified(type);
+  }
 }

@@ -78,7 +78,7 @@ std::vector<std::string> knot_texts(const py::object& knots) {
   if (py::isinstance<py::str>(knots)) throw py::type_error("knots: a sequence of numbers is needed, not a text");
   const py::object to_text = member("_numbers", "to_text");
   std::vector<std::string> out;
-  for (const auto& knot : knots) out.push_back(to_text(knot).cast<std::string>());
+  for (const auto& knot : knots) out.push_back(utf8(to_text(knot)));
   return out;
 }
 

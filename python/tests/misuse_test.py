@@ -295,3 +295,22 @@ def test_requests_that_are_refused(cup):
     for more in [{"repair": math.nan}, {"repair": -1}, {"jobs": -7}, {"decimals": "float"}]:
         with pytest.raises((TypeError, ValueError)):
             patchproof.fill_text("{}", "mesh.json", **more)
+
+
+def test_handles_stay_with_their_classes(cup):
+    for thing, other in ((cup.patches[0], patchproof.Model), (cup, patchproof.Patch)):
+        with pytest.raises(TypeError, match="__class__"):
+            thing.__class__ = other
+
+
+def test_texts_that_are_no_utf8(cup):
+    patch = cup.patches[0]
+    for call in (lambda: patchproof.read_text("\ud800"), lambda: patchproof.fill_text("\ud800"),
+                 lambda: patch.evaluate_exact([["\ud800", "0"]]), lambda: patch.insert_knots("u", ["\ud800"])):
+        with pytest.raises(UnicodeEncodeError):
+            call()
+
+
+def test_degrees_are_integers():
+    with pytest.raises(TypeError):
+        patchproof.Model([patchproof.PatchData(np.zeros((4, 4, 3)), None, (3.7, 3), ([0.0] * 4 + [1.0] * 4,) * 2)])

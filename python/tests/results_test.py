@@ -192,7 +192,7 @@ def test_profiles_and_curvature():
 def test_joins_of_curves():
     corner = [patchproof.CurveData([[0, 0, 0], [1, 0, 0]]), patchproof.CurveData([[1, 0, 0], [1, 1, 0]])]
     report = patchproof.certify(patchproof.Model(curves=corner), require="C1")
-    assert report.outcome == "fail" and report.joins == () and "1 of curves" in repr(report)
+    assert report.outcome == "fail" and report.joins == () and "1 joins of curves" in repr(report)
     (join,) = report.curve_joins
     assert (join.id, join.a, join.b, join.point) == (1, (0, "end"), (1, "begin"), (1, 0, 0))
     assert join.c0.is_proven and join.g1.is_refuted and join.strongest == "C0" and join.gap.upper == 0

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <system_error>
 
 #include "c_api/handles.h"
 #include "patchproof/contract.h"
@@ -48,6 +49,8 @@ void patchproof_context::set(patchproof_status failed, const Error& error) {
   line = error.text();
   if (failed != PATCHPROOF_BAD_DATA)  // the code says nothing there
     line.replace(line.rfind(" ("), std::string::npos, std::string(" (") + patchproof_status_name(failed) + ")");
+  for (char& c : line)  // names and values may hold anything
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
 }
 
 patchproof_status patchproof_context::status_of_exception() noexcept {
@@ -64,6 +67,9 @@ patchproof_status patchproof_context::status_of_exception() noexcept {
     } catch (const std::length_error&) {
       failed = PATCHPROOF_OUT_OF_MEMORY;
       set(failed, {ErrorCode::usage, "", "more would be needed than memory can hold", ""});
+    } catch (const std::system_error& e) {
+      failed = PATCHPROOF_OUT_OF_MEMORY;
+      set(failed, {ErrorCode::usage, "", "the system has no more threads or memory to give", e.what()});
     } catch (const std::exception& e) {
       set(failed, {ErrorCode::usage, "", "an error of the library, please report it", e.what()});
     } catch (...) {

@@ -34,6 +34,8 @@ EvaluateOptions evaluate_options(const patchproof_evaluate_options* options) {
 }
 
 ParameterArray parameters(const patchproof_parameters& at, bool two) {
+  if (at.count > PTRDIFF_MAX / sizeof(double))
+    bad_argument("at.count", "is more than memory can hold", std::to_string(at.count));
   require_array(at.u, at.count, "at.u");
   if (two) require_array(at.v, at.count, "at.v");
   if (!two && at.v != nullptr) bad_argument("at.v", "is not NULL, and a curve has one parameter");
@@ -82,6 +84,12 @@ std::span<const double> list(const double* data, std::size_t length, const Data&
   return {data, length};
 }
 
+int degree_of(std::int32_t degree, const char* name) {
+  constexpr std::int32_t kLargest = 1 << 20;
+  if (degree > kLargest) bad_argument(name, "no surface has this degree", std::to_string(degree));
+  return degree;
+}
+
 template <class S>
 std::span<const double> points_of(const S& data) {
   if (data.points_length % 3 != 0)
@@ -116,7 +124,8 @@ patchproof_status patchproof_surface_create(patchproof_context* context, const p
     require_place(data, "data");
     const patchproof_surface_data d = options_of(data, "data");
     hand_over(context,
-              take(BatchSurface::make({d.degree_u, d.degree_v, list(d.knots_u, d.knots_u_length, "data.knots_u"),
+              take(BatchSurface::make({degree_of(d.degree_u, "data.degree_u"), degree_of(d.degree_v, "data.degree_v"),
+                                       list(d.knots_u, d.knots_u_length, "data.knots_u"),
                                        list(d.knots_v, d.knots_v_length, "data.knots_v"), points_of(d),
                                        list(d.weights, d.weights_length, "data.weights")})),
               out);
@@ -142,8 +151,8 @@ patchproof_status patchproof_curve_create(patchproof_context* context, const pat
     require_place(data, "data");
     const patchproof_curve_data d = options_of(data, "data");
     hand_over(context,
-              take(BatchCurve::make({d.degree, list(d.knots, d.knots_length, "data.knots"), points_of(d),
-                                     list(d.weights, d.weights_length, "data.weights")})),
+              take(BatchCurve::make({degree_of(d.degree, "data.degree"), list(d.knots, d.knots_length, "data.knots"),
+                                     points_of(d), list(d.weights, d.weights_length, "data.weights")})),
               out);
   });
 }

@@ -79,8 +79,8 @@ patchproof_status patchproof_fill(patchproof_context* context, patchproof_text c
                          "",
                          ""};
     for (const std::string& line : exceptions_of(**filled)) content.findings += line + "\n";
-    patchproof_model* model = new patchproof_model(context->keep, std::move(content));
+    auto model = std::make_unique<patchproof_model>(context->keep, std::move(content));
     if (summary != nullptr) write_struct(summary, summary_of(**filled, model->content->findings), "summary");
-    *out = model;
+    *out = model.release();
   });
 }

@@ -123,7 +123,8 @@ inline void require_index(std::size_t index, std::size_t count, const char* name
 }
 
 inline std::size_t known_size(std::size_t struct_size, std::size_t ours, const char* name) {
-  if (struct_size < ours)
+  constexpr std::size_t kLargest = 4096;  // no struct of any version is as large
+  if (struct_size < ours || struct_size > kLargest || struct_size % alignof(double) != 0)
     bad_argument(std::string(name) + ".struct_size", "is the size of no version of this struct; set it to sizeof",
                  std::to_string(struct_size));
   return ours;

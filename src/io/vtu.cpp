@@ -63,6 +63,7 @@ class Grid {
     });
     cell_arrays(piece.append_child("Cells"));
     std::ostringstream text;
+    text.exceptions(std::ios::badbit);  // or a text would end where memory did
     text.imbue(std::locale::classic());
     document.save(text, " ", pugi::format_default, pugi::encoding_utf8);
     return text.str();

@@ -2,6 +2,7 @@
 """Patches, curves and joins given by arrays, brought into the form that the extension hands on."""
 from __future__ import annotations
 
+import operator
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -87,7 +88,7 @@ def patch(data: Any, number: int) -> tuple[Any, ...]:
         degree: tuple[int, ...] = (points.shape[0] - 1, points.shape[1] - 1)
         knots: tuple[NDArray[np.float64], ...] = (bezier_knots(degree[0]), bezier_knots(degree[1]))
     else:
-        degree = tuple(int(d) for d in data.degree)
+        degree = tuple(operator.index(d) for d in data.degree)
         knots = tuple(doubles(k, f"{name}.knots", 1) for k in data.knots)
         if len(degree) != 2 or len(knots) != 2:
             raise TypeError(f"{name}: two degrees and two knot vectors are needed")
@@ -105,7 +106,7 @@ def curve(data: Any, number: int) -> tuple[Any, ...]:
     weights = None if data.weights is None else doubles(data.weights, f"{name}.weights", 1)
     if weights is not None and len(weights) != len(points):
         raise TypeError(f"{name}.weights: an array of shape {weights.shape}; ({len(points)},) is needed")
-    degree = len(points) - 1 if data.degree is None else int(data.degree)
+    degree = len(points) - 1 if data.degree is None else operator.index(data.degree)
     knots = bezier_knots(degree) if data.knots is None else doubles(data.knots, f"{name}.knots", 1)
     return degree, knots, points, weights, str(data.name)
 

@@ -19,7 +19,7 @@ class Derivatives(NamedTuple):
     """Values of a surface at parameters of shape (...): float64 arrays of shape (..., 3), None where not asked for.
 
     Lengths are in the model's units; du is ∂S/∂u, duv is ∂²S/∂u∂v. normal is (du × dv) / |du × dv|, and 0 0 0 where
-    there is none. As `out=` of evaluate its arrays say where the values go.
+    the computed product is 0 or far below its size elsewhere. As `out=` of evaluate its arrays say where the values go.
     """
 
     point: Optional[Floats] = None

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When memory runs out. `operator new` fails once, at every place in turn: each call then ends with PATCHPROOF_OUT_OF_MEMORY,
+// When memory runs out. `operator new` fails once, at one place after the other (of the first 256 at each): each call then ends with PATCHPROOF_OUT_OF_MEMORY,
 // leaves its outputs alone and works when it is made again. Not of reports as JSON and of .glb: the objects of the JSON library
 // that writes them need memory to be destroyed.
 #include <atomic>
@@ -46,7 +46,7 @@ namespace {
 
 // Calls until nothing fails any more; says how often it did.
 long fail_everywhere(const std::function<patchproof_status()>& call) {
-  for (long n = 0; n < 1000000; n += 1 + n / 64) {
+  for (long n = 0; n < 1000000; n += 1 + n / 256) {
     until_failure = n;
     const patchproof_status status = call();
     const bool failed = until_failure.exchange(-1) < 0;
@@ -91,6 +91,31 @@ TEST(CApiMemory, EveryFailureIsAStatus) {
   patchproof_mesh* mesh = nullptr;
   EXPECT_GT(fail_everywhere([&] { return patchproof_tessellate(c, model, &coarse, nullptr, &mesh); }), 20);
   const Owned<patchproof_mesh> owned_mesh(mesh);
+  for (const std::int32_t format :
+       {PATCHPROOF_MESH_STL, PATCHPROOF_MESH_OBJ, PATCHPROOF_MESH_PLY, PATCHPROOF_MESH_VTU}) {
+    std::vector<char> bytes(1 << 20);
+    EXPECT_GT(
+        fail_everywhere([&] { return patchproof_mesh_write(c, mesh, format, bytes.data(), bytes.size(), &needed); }),
+        0);
+  }
+  EXPECT_GT(fail_everywhere([&] {
+              return patchproof_model_write(c, model, PATCHPROOF_FORMAT_JSON, buffer.data(), buffer.size(), &needed);
+            }),
+            3);
+  const patchproof_text uv[] = {patchproof_from("1/3"), patchproof_from("1/7")};
+  EXPECT_GT(fail_everywhere([&] {
+              return patchproof_model_patch_evaluate_exact(c, model, 0, uv, 2, nullptr, PATCHPROOF_SCALAR_RATIONAL, 1,
+                                                           buffer.data(), buffer.size(), &needed);
+            }),
+            3);
+  const std::string json = bytes_of(example("cylinder_q.json"));
+  patchproof_model* read = nullptr;
+  EXPECT_GT(fail_everywhere([&] {
+              return patchproof_model_read_text(c, text_of(json), patchproof_from("c.json"), PATCHPROOF_DECIMALS_EXACT,
+                                                &read);
+            }),
+            20);
+  const Owned<patchproof_model> owned_read(read);
 }
 
 }  // namespace
