@@ -198,8 +198,7 @@ The table that people read, worst joins first.)");
     const py::object bounds = member("_values", "Bounds");
     const auto shown = [&](const double(&b)[2]) { return std::string(py::repr(bounds(b[0], b[1]))); };
     std::string out = "<patchproof.Report: " + std::string(kOutcomes[s.outcome]) + ", " + std::to_string(s.joins) +
-                      " joins, gap " + shown(s.largest_gap) + ", angle " + shown(s.largest_angle) +
-                      " degrees";
+                      " joins, gap " + shown(s.largest_gap) + ", angle " + shown(s.largest_angle) + " degrees";
     if (s.curve_joins > 0) out += ", " + std::to_string(s.curve_joins) + " joins of curves";
     return out + ">";
   });
