@@ -56,17 +56,15 @@ extern "C" {
 typedef int32_t patchproof_status;
 enum {
   PATCHPROOF_OK = 0,
-  PATCHPROOF_BAD_DATA =
-      1, /**< numbers, a file or a request that cannot be used; patchproof_error has place and values */
-  PATCHPROOF_BAD_ARGUMENT =
-      2, /**< NULL, a wrong length, a number that is no value of its enum, an index out of range */
+  PATCHPROOF_BAD_DATA = 1,         /**< numbers, a file or a request that cannot be used; the error has place and values */
+  PATCHPROOF_BAD_ARGUMENT = 2,     /**< NULL, a wrong length, no value of an enum, an index out of range */
   PATCHPROOF_BUFFER_TOO_SMALL = 3, /**< *needed says how long it has to be */
   PATCHPROOF_FREED_HANDLE = 4,     /**< seen for certain under PATCHPROOF_KEEP_FREED_HANDLES only */
   PATCHPROOF_CONTEXT_BUSY = 5,     /**< another call, perhaps the one whose callback this is, uses the context */
   PATCHPROOF_STOPPED = 6,          /**< the callback asked for it */
   PATCHPROOF_CALLBACK_THREW = 7,   /**< a C++ exception came out of the callback */
-  PATCHPROOF_OUT_OF_MEMORY = 8,    /**< docs/library.md names what cannot be promised */
-  PATCHPROOF_INTERNAL_ERROR = 9 /**< our fault: please report it */
+  PATCHPROOF_OUT_OF_MEMORY = 8,    /**< or of threads; docs/library.md names what cannot be promised */
+  PATCHPROOF_INTERNAL_ERROR = 9    /**< our fault: please report it */
 };
 
 /** Bytes, not ended by a zero. {NULL, 0} is the empty text. */
