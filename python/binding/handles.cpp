@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <new>
+#include <optional>
 
 namespace patchproof::python {
 
@@ -63,18 +64,6 @@ int choose(const py::object& word, std::initializer_list<const char*> words, con
   throw py::value_error(std::string(name) + ": one of " + all + " is needed, not " + std::string(py::repr(word)));
 }
 
-namespace {
-
-bool is_finalizing() {
-#if PY_VERSION_HEX >= 0x030D0000
-  return Py_IsFinalizing() != 0;
-#else
-  return _Py_IsFinalizing() != 0;
-#endif
-}
-
-}  // namespace
-
 std::string utf8(const py::object& text) {
   if (!py::isinstance<py::str>(text)) return text.cast<std::string>();
   Py_ssize_t length = 0;
@@ -93,8 +82,9 @@ Progress::Progress(py::object function) : function_(std::move(function)) {
 }
 
 std::int32_t Progress::report(std::uint64_t done, std::uint64_t all) noexcept {
-  if (raised_ || is_finalizing()) return 1;  // the lock is nobody's any more
-  const py::gil_scoped_acquire acquire;
+  if (raised_) return 1;
+  std::optional<py::gil_scoped_acquire> lock;
+  take_lock([&] { lock.emplace(); });
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (!function_.is_none()) function_(done, all == 0 ? py::object(py::none()) : py::object(py::int_(all)));

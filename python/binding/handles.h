@@ -3,7 +3,9 @@
 // nowhere else.
 #pragma once
 
+#include <cxxabi.h>
 #include <pybind11/pybind11.h>
+#include <unistd.h>
 
 #include <memory>
 #include <string>
@@ -44,13 +46,23 @@ void call(const F& f) {
   raise_unless_ok(context.get(), f(context.get()));
 }
 
-// f() without the interpreter's lock. Not by py::gil_scoped_release: a thread that still works when the interpreter ends is
-// unwound where it asks for the lock again, and that must not be in a destructor.
+// take() asks for the interpreter's lock. A thread that asks when the interpreter has ended is made to end there, and what would
+// be unwound then holds objects of Python, without the lock: it waits for the end of the process instead, as from Python 3.14 on.
+template <class F>
+void take_lock(const F& take) {
+  try {
+    take();
+  } catch (const abi::__forced_unwind&) {
+    for (;;) pause();
+  }
+}
+
+// f() without the interpreter's lock. (py::gil_scoped_release takes it again in a destructor, which cannot be unwound.)
 template <class F>
 patchproof_status released(const F& f) {
   PyThreadState* const state = PyEval_SaveThread();
   const patchproof_status status = f();
-  PyEval_RestoreThread(state);
+  take_lock([&] { PyEval_RestoreThread(state); });
   return status;
 }
 

@@ -18,7 +18,7 @@ MUST_STAND = [  # page, text
     ("group__join__certify.html", "(2) lower ≤ sup ≤ upper, lower attained at at;"),
     ("classpatchproof_1_1BatchSurface.html", "bound[i] ≥ |computed − exact| in each coordinate of point i"),
     ("classpatchproof_1_1Interval.html", "The negative part of the operand is cut off. REQUIRES sup ≥ 0."),
-    ("group__c__api.html", "It returns a status. On any but PATCHPROOF_OK the context says what was wrong"),
+    ("group__c__api.html", "It returns a status. On any but PATCHPROOF_OK the context that was given says what was wrong"),
     ("group__c__api.html", "patchproof_status patchproof_certify ( patchproof_context * context"),
     ("index.html", "proves how the patches of a free-form model join"),
 ]
