@@ -2,13 +2,14 @@
 // Knot insertion, elevation and extraction: exact, on a copy of the model.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "c_api/models.h"
+#include "io/raw_spline.h"
 #include "patchproof/patch/patch_knots.h"
 
 namespace patchproof::c_api {
 namespace {
-
-constexpr int kMostDegree = 64;  // what readers take
 
 Direction direction_of(std::int32_t value) {
   require_value(value, PATCHPROOF_DIRECTION_V, "direction");
@@ -19,7 +20,7 @@ Direction direction_of(std::int32_t value) {
 template <ExactField T>
 std::vector<T> new_knots(const KnotVector<T>& knots, const patchproof_text* texts, std::size_t length) {
   require_array(texts, length, "knots");
-  std::vector<T> out, all = knots.knots();
+  std::vector<T> out;
   for (std::size_t i = 0; i < length; ++i) {
     const std::string where = fmt::format("knots[{}]", i), text(view(texts[i], where.c_str()));
     const Result<T> t = parse_scalar<T>(text);
@@ -39,8 +40,8 @@ std::vector<T> new_knots(const KnotVector<T>& knots, const patchproof_text* text
 
 int raised(int degree, std::int32_t times) {
   if (times < 0) bad_argument("times", "is negative", std::to_string(times));
-  if (times > kMostDegree - degree)
-    bad_data({ErrorCode::bad_degree, "times", fmt::format("the degree would exceed {}", kMostDegree),
+  if (times > kMaxDegree - degree)
+    bad_data({ErrorCode::bad_degree, "times", fmt::format("the degree would exceed {}", kMaxDegree),
               fmt::format("{} + {}", degree, times)});
   return times;
 }
